@@ -10,10 +10,9 @@
 //   scene            null, or dimension, vertices, cells {faces, edges, points},
 //                    parts [{name, first, vertices, fixed}], frames, times, unit, least, greatest,
 //                    steps {begin, list: the ends of the steps}, note
-//   contacts         null, or counts by kind, total, initial, per_step [totals], goes_on [steps], settled: no contact is earlier
-//                    than the first, first: null or a contact, listed:
-//                    contacts {step, pair, features, and if the result has them time, kind, cells, bodies, point},
-//                    intersections [{step, cells}]
+//   contacts         null, or counts by kind, total, initial, per_step [totals], goes_on [steps], settled: no contact
+//                    is earlier than the first, first: null or a contact, listed: contacts {step, pair, features, and
+//                    if the result has them time, kind, cells, bodies, point}, intersections [{step, cells}]
 //   focus            of a run: null, or the pair that its motion opens with {meets, features, time, words}
 //   plots            [{title, x, y, log, times, series: [{name, values}]}]
 //   pictures         [{name, image: a data: address}]; results: [{name, tone, result: any JSON}]

@@ -6,9 +6,9 @@
 // the fewest faces hide the contact and the faces that meet look largest. Where all hide it, the view is cut open.
 import * as THREE from "three";
 
-const context = 1.9;         // radius of the sphere over that of the faces that meet
-const leastPart = 2e-3;      // of the scene's radius: below it rounded positions are all that is seen
-const hiddenPenalty = 0.35;  // of one face before the contact, over the size of the faces that meet
+const context = 1.9; // radius of the sphere over that of the faces that meet
+const leastPart = 2e-3; // of the scene's radius: below it rounded positions are all that is seen
+const hiddenPenalty = 0.35; // of one face before the contact, over the size of the faces that meet
 
 const middle = (points) => points.reduce((sum, p) => sum.add(p), new THREE.Vector3()).divideScalar(points.length);
 
@@ -42,21 +42,38 @@ function normals(corners) {
   return list;
 }
 
-/** How many faces a ray from `origin` hits farther away than `least`, and how far the nearest of them is (Moeller and Trumbore 1997). */
+/**
+ * How many faces a ray from `origin` hits farther away than `least`, and how far the nearest of them is (Moeller and
+ * Trumbore 1997).
+ */
 function hits({ positions: x, faces }, origin, direction, least) {
-  const { x: ox, y: oy, z: oz } = origin, { x: dx, y: dy, z: dz } = direction;
-  let count = 0, nearest = Infinity;
+  const { x: ox, y: oy, z: oz } = origin,
+    { x: dx, y: dy, z: dz } = direction;
+  let count = 0,
+    nearest = Infinity;
   for (let i = 0; i < faces.length; i += 3) {
-    const a = 3 * faces[i], b = 3 * faces[i + 1], c = 3 * faces[i + 2];
-    const ux = x[b] - x[a], uy = x[b + 1] - x[a + 1], uz = x[b + 2] - x[a + 2];
-    const vx = x[c] - x[a], vy = x[c + 1] - x[a + 1], vz = x[c + 2] - x[a + 2];
-    const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
+    const a = 3 * faces[i],
+      b = 3 * faces[i + 1],
+      c = 3 * faces[i + 2];
+    const ux = x[b] - x[a],
+      uy = x[b + 1] - x[a + 1],
+      uz = x[b + 2] - x[a + 2];
+    const vx = x[c] - x[a],
+      vy = x[c + 1] - x[a + 1],
+      vz = x[c + 2] - x[a + 2];
+    const px = dy * vz - dz * vy,
+      py = dz * vx - dx * vz,
+      pz = dx * vy - dy * vx;
     const volume = ux * px + uy * py + uz * pz;
     if (volume === 0) continue;
-    const tx = ox - x[a], ty = oy - x[a + 1], tz = oz - x[a + 2];
+    const tx = ox - x[a],
+      ty = oy - x[a + 1],
+      tz = oz - x[a + 2];
     const s = (tx * px + ty * py + tz * pz) / volume;
     if (s < 0 || s > 1) continue;
-    const qx = ty * uz - tz * uy, qy = tz * ux - tx * uz, qz = tx * uy - ty * ux;
+    const qx = ty * uz - tz * uy,
+      qy = tz * ux - tx * uz,
+      qz = tx * uy - ty * ux;
     const t = (dx * qx + dy * qy + dz * qz) / volume;
     const distance = (vx * qx + vy * qy + vz * qz) / volume;
     if (t < 0 || s + t > 1 || distance <= least) continue;
@@ -71,7 +88,10 @@ function candidates(usual, list) {
   for (const x of [-1, 1]) {
     for (const y of [-1, 1]) around.push(new THREE.Vector3(x, y, 0.7), new THREE.Vector3(x, y, -0.7));
   }
-  const own = list.flatMap((n) => [n, n.clone().negate()]).filter((n) => n.lengthSq() > 0).slice(0, 6);
+  const own = list
+    .flatMap((n) => [n, n.clone().negate()])
+    .filter((n) => n.lengthSq() > 0)
+    .slice(0, 6);
   // A little aside of a normal, so that what stands upright on a face is not seen from its edge.
   const tilted = own.map((n) => n.clone().normalize().addScaledVector(usual, 0.5));
   return [usual, ...tilted, ...around].filter((d) => d.lengthSq() > 1e-9).map((d) => d.clone().normalize());
@@ -97,7 +117,10 @@ export function aim({ corners, features, point, usual, flat, sceneRadius, mesh }
   let best = { score: -Infinity };
   for (const direction of candidates(usual, ofEach.flat())) {
     const before = hits(mesh, centre, direction, 0.02 * own);
-    const score = Math.min(...ofEach.map((list) => seenArea(list, direction))) - hiddenPenalty * before.count + 0.1 * direction.dot(usual);
+    const score =
+      Math.min(...ofEach.map((list) => seenArea(list, direction))) -
+      hiddenPenalty * before.count +
+      0.1 * direction.dot(usual);
     if (score > best.score) best = { score, direction, before };
   }
   // Something is always before it: the view is cut open there.

@@ -8,8 +8,16 @@ function cells(contact, parts) {
   const cell = (text, className = "") => element("td", { className }, text);
   const time = contact.time === undefined ? "" : number(contact.time, 4);
   const facts = [contact.kind && words(contact.kind), bodiesText(contact)].filter(Boolean).join(", ");
-  return [cell(number(contact.step), "number"), cell(time, "number"),
-    element("td", { className: "pair" }, pairText(contact, parts), facts ? element("span", { className: "soft" }, facts) : null)];
+  return [
+    cell(number(contact.step), "number"),
+    cell(time, "number"),
+    element(
+      "td",
+      { className: "pair" },
+      pairText(contact, parts),
+      facts ? element("span", { className: "soft" }, facts) : null,
+    ),
+  ];
 }
 
 /** Keeps one row of a list chosen and in the order of tabs; arrows move within the list. */
@@ -19,7 +27,10 @@ class Rows {
     this.pick = pick;
     rows.forEach((row, i) => {
       row.tabIndex = i === 0 ? 0 : -1;
-      row.onclick = () => { this.choose(i); pick(i); };
+      row.onclick = () => {
+        this.choose(i);
+        pick(i);
+      };
       row.onkeydown = (event) => this.key(event, i);
     });
   }
@@ -47,8 +58,11 @@ class Rows {
 }
 
 function summary(contacts) {
-  const kinds = Object.entries(contacts.counts).filter(([, n]) => n > 0).map(([kind, n]) => `${number(n)} ${pairName(kind)}`);
-  const initial = contacts.initial > 0 ? `; ${counted(contacts.initial, "pair")} of cells intersect before anything moves` : "";
+  const kinds = Object.entries(contacts.counts)
+    .filter(([, n]) => n > 0)
+    .map(([kind, n]) => `${number(n)} ${pairName(kind)}`);
+  const initial =
+    contacts.initial > 0 ? `; ${counted(contacts.initial, "pair")} of cells intersect before anything moves` : "";
   return `${counted(contacts.total, "pair")} of features${kinds.length > 0 ? `: ${kinds.join(", ")}` : ""}${initial}.`;
 }
 
@@ -56,14 +70,31 @@ function summary(contacts) {
 export function contactList(contacts, list, parts, inStep, pick) {
   const rows = list.map((contact) => element("tr", { className: "pick" }, ...cells(contact, parts)));
   const chooser = new Rows(rows, (i) => pick(list[i]));
-  const head = element("tr", {}, ...[inStep ? "step" : "window", inStep ? "time" : "time [s]", "features, by vertex"].map((h) => element("th", { scope: "col" }, h)));
+  const head = element(
+    "tr",
+    {},
+    ...[inStep ? "step" : "window", inStep ? "time" : "time [s]", "features, by vertex"].map((h) =>
+      element("th", { scope: "col" }, h),
+    ),
+  );
   const left = contacts.total + contacts.initial - list.length;
-  const node = element("div", { className: "contacts" }, element("h2", {}, "Contacts"), element("p", { className: "soft" }, summary(contacts)));
+  const node = element(
+    "div",
+    { className: "contacts" },
+    element("h2", {}, "Contacts"),
+    element("p", { className: "soft" }, summary(contacts)),
+  );
   if (list.length > 0) {
-    node.append(element("div", { className: "scroll", tabIndex: -1 },
-      element("table", { ariaLabel: "Contacts" }, element("thead", {}, head), element("tbody", {}, ...rows))));
+    node.append(
+      element(
+        "div",
+        { className: "scroll", tabIndex: -1 },
+        element("table", { ariaLabel: "Contacts" }, element("thead", {}, head), element("tbody", {}, ...rows)),
+      ),
+    );
   }
-  if (left > 0) node.append(element("p", { className: "soft" }, list.length > 0 ? `and ${number(left)} more` : "None is listed."));
+  if (left > 0)
+    node.append(element("p", { className: "soft" }, list.length > 0 ? `and ${number(left)} more` : "None is listed."));
   const choose = (contact) => {
     const i = list.indexOf(contact);
     if (i >= 0) chooser.choose(i);

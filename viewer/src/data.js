@@ -35,7 +35,8 @@ export async function frames({ vertices, frames }) {
   let before = new Uint16Array(size);
   for (let f = 0; f < frames; ++f) {
     const now = new Uint16Array(size);
-    const low = 2 * f * size, high = low + size;
+    const low = 2 * f * size,
+      high = low + size;
     for (let k = 0, i = 0; k < 3; ++k) {
       for (let v = 0; v < vertices; ++v, ++i) {
         const at = 3 * v + k;

@@ -22,7 +22,12 @@ export const pairText = (contact, parts) => contact.features.map((f) => featureT
 
 /** What a reader asks first of a contact. `inStep`: times are parts of a step, else seconds. */
 export function shortText(contact, parts, inStep) {
-  const facts = [pairText(contact, parts), bodiesText(contact), contact.kind && words(contact.kind), `${inStep ? "step" : "window"} ${number(contact.step)}`];
+  const facts = [
+    pairText(contact, parts),
+    bodiesText(contact),
+    contact.kind && words(contact.kind),
+    `${inStep ? "step" : "window"} ${number(contact.step)}`,
+  ];
   if (contact.time !== undefined) facts.push(inStep ? `t = ${number(contact.time)}` : `${number(contact.time)} s`);
   return facts.filter(Boolean).join(" · ");
 }
@@ -48,13 +53,21 @@ export function inOrder({ listed, first }, most) {
 
 /** The vertices of a cell by its number: faces come first, then edges, then points. */
 function verticesOf(cell, { faces, edges, points }) {
-  const edge = cell - faces.length / 3, point = edge - edges.length / 2;
+  const edge = cell - faces.length / 3,
+    point = edge - edges.length / 2;
   if (edge < 0) return [...faces.subarray(3 * cell, 3 * cell + 3)];
   return point < 0 ? [...edges.subarray(2 * edge, 2 * edge + 2)] : [...points.subarray(point, point + 1)];
 }
 
 /** Cells that intersect before anything moves, as contacts of these cells. */
 export function intersectionsOf({ intersections = [] }, cells) {
-  return intersections.map(({ step, cells: [a, b] }) => ({ step, kind: "intersection", features: [verticesOf(a, cells), verticesOf(b, cells)],
-                                                           cells: [[a], [b]], time: 0 })).filter(({ features }) => features.every((f) => f.length > 0));
+  return intersections
+    .map(({ step, cells: [a, b] }) => ({
+      step,
+      kind: "intersection",
+      features: [verticesOf(a, cells), verticesOf(b, cells)],
+      cells: [[a], [b]],
+      time: 0,
+    }))
+    .filter(({ features }) => features.every((f) => f.length > 0));
 }

@@ -5,10 +5,11 @@
 import { element, folded, list, number, words } from "./dom.js";
 
 const mostRows = 1000;
-const mostOpen = 2000;  // rows of all tables: of more, those in rows are made when they are asked for
+const mostOpen = 2000; // rows of all tables: of more, those in rows are made when they are asked for
 const isObject = (x) => x !== null && typeof x === "object" && !Array.isArray(x);
 const isTable = (x) => Array.isArray(x) && x.length > 0 && x.every(isObject);
-const nothing = (x) => x === null || x === undefined || (Array.isArray(x) && x.length === 0) || (isObject(x) && Object.keys(x).length === 0);
+const nothing = (x) =>
+  x === null || x === undefined || (Array.isArray(x) && x.length === 0) || (isObject(x) && Object.keys(x).length === 0);
 
 /** "late.worst_relative" as "late, worst relative". */
 const title = (key) => words(key).replaceAll(".", ", ");
@@ -18,7 +19,10 @@ export function text(x) {
   if (nothing(x)) return "none";
   if (typeof x === "number") return number(x);
   if (typeof x === "boolean") return x ? "yes" : "no";
-  if (isObject(x)) return Object.entries(x).map(([key, value]) => `${words(key)}: ${inner(value)}`).join("; ");
+  if (isObject(x))
+    return Object.entries(x)
+      .map(([key, value]) => `${words(key)}: ${inner(value)}`)
+      .join("; ");
   return Array.isArray(x) ? x.map(inner).join(", ") : String(x);
 }
 
@@ -27,7 +31,8 @@ const inner = (x) => (Array.isArray(x) || isObject(x) ? `(${text(x)})` : text(x)
 /** {a: {b: 1}} as {"a.b": 1}, so that a row has a column for each. */
 function flat(object, prefix = "") {
   return Object.entries(object).flatMap(([key, value]) =>
-    isObject(value) ? flat(value, `${prefix}${key}.`) : [[prefix + key, value]]);
+    isObject(value) ? flat(value, `${prefix}${key}.`) : [[prefix + key, value]],
+  );
 }
 
 /** How many rows the tables of a result have. */
@@ -53,17 +58,38 @@ export const more = (left) => (left > 0 ? element("p", { className: "soft" }, `a
 /** Every member a column, in the order in which they come. */
 export function table(rows, open) {
   const shown = rows.slice(0, mostRows).map((row) => flat(row));
-  const columns = [...new Set(shown.flat().filter(([, value]) => !isTable(value)).map(([key]) => key))];
+  const columns = [
+    ...new Set(
+      shown
+        .flat()
+        .filter(([, value]) => !isTable(value))
+        .map(([key]) => key),
+    ),
+  ];
   const numeric = (c) => shown.every((row) => row.every(([key, value]) => key !== c || typeof value === "number"));
-  const head = element("tr", {}, ...columns.map((c) => element("th", { scope: "col", className: numeric(c) ? "number" : "" }, title(c))));
+  const head = element(
+    "tr",
+    {},
+    ...columns.map((c) => element("th", { scope: "col", className: numeric(c) ? "number" : "" }, title(c))),
+  );
   const body = shown.flatMap((row) => {
     const values = new Map(row);
     const tables = row.filter(([, value]) => isTable(value));
-    return [element("tr", {}, ...columns.map((c) => cell(isTable(values.get(c)) ? undefined : values.get(c)))),
-      ...tables.map(([key, value]) => nested(key, value, Math.max(1, columns.length), open))];
+    return [
+      element("tr", {}, ...columns.map((c) => cell(isTable(values.get(c)) ? undefined : values.get(c)))),
+      ...tables.map(([key, value]) => nested(key, value, Math.max(1, columns.length), open)),
+    ];
   });
-  return element("div", {}, element("div", { className: "scroll" },
-    element("table", {}, element("thead", {}, head), element("tbody", {}, ...body))), more(rows.length - mostRows));
+  return element(
+    "div",
+    {},
+    element(
+      "div",
+      { className: "scroll" },
+      element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)),
+    ),
+    more(rows.length - mostRows),
+  );
 }
 
 /** Children of a node for all members of an object. */

@@ -8,7 +8,8 @@ import { shortText } from "./features.js";
 const plain = ["contact", "no_contact", "proved"];
 
 /** Whether times are parts of steps between frames, and not seconds of a run. */
-export const inSteps = ({ scene, statement: rows }) => (scene ? scene.unit !== "s" : !rows.some(([name]) => name === "windows"));
+export const inSteps = ({ scene, statement: rows }) =>
+  scene ? scene.unit !== "s" : !rows.some(([name]) => name === "windows");
 
 /** The sentence that is read first. */
 function lead(page) {
@@ -28,22 +29,36 @@ function lines(page) {
   const first = lead(page);
   if (!page.scene || !plain.includes(word)) return [...new Set([first, ...all])].filter(Boolean).map(paragraph);
   const rest = all.filter((line) => line !== first && !caveats.includes(line));
-  return [first, ...caveats].filter(Boolean).map(paragraph)
+  return [first, ...caveats]
+    .filter(Boolean)
+    .map(paragraph)
     .concat(rest.length > 0 ? [folded("More about the verdict", () => rest.map(paragraph))] : []);
 }
 
 export function head(page) {
   const { word, tone } = page.verdict;
-  return element("header", {}, element("div", { className: "title" }, element("h1", {}, page.title),
-    element("span", { className: `badge ${tone}` }, words(word))), ...lines(page));
+  return element(
+    "header",
+    {},
+    element(
+      "div",
+      { className: "title" },
+      element("h1", {}, page.title),
+      element("span", { className: `badge ${tone}` }, words(word)),
+    ),
+    ...lines(page),
+  );
 }
 
 /** What the statement says beyond its defaults; all of it folded. */
 export function statement(page) {
   if (page.statement.length === 0) return null;
   const shown = page.statement.filter(([name, , visible]) => visible ?? name === "claim");
-  return section("What is stated", list(shown),
-    folded(`All ${page.statement.length} conditions and inputs`, () => [list(page.statement)]));
+  return section(
+    "What is stated",
+    list(shown),
+    folded(`All ${page.statement.length} conditions and inputs`, () => [list(page.statement)]),
+  );
 }
 
 export function facts(page) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What meets, over the mesh: the faces of both features filled, the features themselves as thick lines or dots. Faces are drawn twice: where they are seen, and faintly through whatever is before them.
+// What meets, over the mesh: the faces of both features filled, the features themselves as thick lines or dots. Faces
+// are drawn twice: where they are seen, and faintly through whatever is before them.
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -40,7 +41,10 @@ function outline(positions, opacity) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", positions);
   geometry.setIndex(index([]));
-  const object = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity }));
+  const object = new THREE.LineSegments(
+    geometry,
+    new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity }),
+  );
   object.renderOrder = 3;
   return object;
 }
@@ -51,14 +55,23 @@ const sidesOf = (corners) => [...corners].flatMap((v, i) => [v, corners[i % 3 ==
 function dots(fill, rim, pixels) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(0), 3));
-  const material = new THREE.PointsMaterial({ map: dot(fill, rim), size: pixels, sizeAttenuation: false, transparent: true, depthTest: false });
+  const material = new THREE.PointsMaterial({
+    map: dot(fill, rim),
+    size: pixels,
+    sizeAttenuation: false,
+    transparent: true,
+    depthTest: false,
+  });
   const points = new THREE.Points(geometry, material);
   points.renderOrder = 5;
   return points;
 }
 
 function lines(colour) {
-  const object = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color: colour, linewidth: 3.5, depthTest: false, transparent: true }));
+  const object = new LineSegments2(
+    new LineSegmentsGeometry(),
+    new LineMaterial({ color: colour, linewidth: 3.5, depthTest: false, transparent: true }),
+  );
   object.renderOrder = 4;
   object.visible = false;
   return object;
@@ -104,7 +117,15 @@ export class Highlight {
   constructor(group, positions) {
     this.positions = positions;
     this.two = [0, 1].map((which) => Object.assign(new Side(positions, which), { which }));
-    const aside = { color: colours.others, transparent: true, opacity: 0.45, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -0.5, polygonOffsetUnits: -0.5 };
+    const aside = {
+      color: colours.others,
+      transparent: true,
+      opacity: 0.45,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -0.5,
+      polygonOffsetUnits: -0.5,
+    };
     this.others = faces(positions, aside, 0);
     this.near = outline(positions, 0.2);
     this.objects = [...this.two.flatMap((side) => side.objects), this.others, this.near];

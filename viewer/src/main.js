@@ -12,13 +12,21 @@ import { contactsPerStep, stageSection } from "./stage.js";
 
 /** A verdict without its motion. */
 function contactsAlone(page) {
-  return element("section", {}, contactList(page.contacts, inOrder(page.contacts, 1000), [], inSteps(page), () => {}).node);
+  return element(
+    "section",
+    {},
+    contactList(page.contacts, inOrder(page.contacts, 1000), [], inSteps(page), () => {}).node,
+  );
 }
 
 function barsOf(page, report) {
   const perStep = contactsPerStep(page.contacts, page.scene ? page.scene.steps.list.length : 0);
   if (perStep.length < 2) return null;
-  return contactBars(perStep, inSteps(page) ? "step" : "window", (step) => report.stage && report.stage.pickStep(Math.min(step, perStep.length)));
+  return contactBars(
+    perStep,
+    inSteps(page) ? "step" : "window",
+    (step) => report.stage && report.stage.pickStep(Math.min(step, perStep.length)),
+  );
 }
 
 function picture({ name, image }) {
@@ -29,7 +37,9 @@ async function build() {
   const report = {};
   const page = data.page();
   const place = document.getElementById("report");
-  const put = (node) => { if (node) place.append(node); };
+  const put = (node) => {
+    if (node) place.append(node);
+  };
   put(head(page));
   const motion = page.scene ? await stageSection(page, report) : null;
   if (motion) {

@@ -25,8 +25,12 @@ function barsOf(perStep, goesOn, motion) {
 }
 
 function barNode({ from, to, step, total }, motion, most) {
-  const part = (time) => (100 * (Math.min(Math.max(time, motion.first), motion.last) - motion.first)) / (motion.last - motion.first || 1);
-  const node = element("div", { className: "bar", title: `step ${number(step)}: ${total > 0 ? counted(total, "contact") : "contacts go on"}` });
+  const part = (time) =>
+    (100 * (Math.min(Math.max(time, motion.first), motion.last) - motion.first)) / (motion.last - motion.first || 1);
+  const node = element("div", {
+    className: "bar",
+    title: `step ${number(step)}: ${total > 0 ? counted(total, "contact") : "contacts go on"}`,
+  });
   node.style.left = `${part(from)}%`;
   node.style.width = `max(4px, ${part(to) - part(from)}% - 1px)`;
   node.style.height = `${100 * (0.25 + (0.75 * Math.log1p(total)) / Math.log1p(most))}%`;
@@ -61,6 +65,7 @@ export function stepButtons(perStep, step, pick) {
     }
     return undefined;
   };
-  const button = (text, ariaLabel, by) => element("button", { type: "button", ariaLabel, title: ariaLabel, onclick: () => go(step(), by) }, text);
+  const button = (text, ariaLabel, by) =>
+    element("button", { type: "button", ariaLabel, title: ariaLabel, onclick: () => go(step(), by) }, text);
   return [button("◂", "Previous step with contacts", -1), button("▸", "Next step with contacts", 1)];
 }

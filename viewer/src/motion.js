@@ -11,12 +11,17 @@ export class Motion {
     this.moves = scene.unit === "steps";
   }
 
-  get first() { return this.times[0]; }
-  get last() { return this.times[this.times.length - 1]; }
+  get first() {
+    return this.times[0];
+  }
+  get last() {
+    return this.times[this.times.length - 1];
+  }
 
   /** The last frame that is not later than this time. */
   frameAt(time) {
-    let low = 0, high = this.times.length;
+    let low = 0,
+      high = this.times.length;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
       if (this.times[middle] <= time) low = middle;
@@ -28,7 +33,8 @@ export class Motion {
   /** Writes x y z of all vertices, in 65,535ths of the box. */
   write(time, out) {
     const frame = this.frameAt(time);
-    const from = this.frames[frame], to = this.frames[frame + 1];
+    const from = this.frames[frame],
+      to = this.frames[frame + 1];
     const share = to && this.moves ? (time - this.times[frame]) / (this.times[frame + 1] - this.times[frame]) : 0;
     if (share <= 0) {
       out.set(from);
@@ -46,7 +52,8 @@ export class Motion {
   /** In which step a time is; at a border the step that ends there. */
   stepAt(time) {
     const ends = this.scene.steps.list;
-    let low = 0, high = ends.length - 1;
+    let low = 0,
+      high = ends.length - 1;
     while (low < high) {
       const middle = (low + high) >> 1;
       if (ends[middle] < time) low = middle + 1;
@@ -69,7 +76,8 @@ export class Motion {
     const frames = `frame ${number(frame + 1)} of ${number(this.times.length)}`;
     if (this.scene.unit === "s") return `${number(time)} s, ${frames}`;
     if (!this.moves || time === this.times[frame]) return frames;
-    const step = this.stepAt(time), [begin, end] = this.step(step);
+    const step = this.stepAt(time),
+      [begin, end] = this.step(step);
     return `step ${number(step)} of ${number(this.scene.steps.list.length)}, t = ${number((time - begin) / (end - begin), 4)}`;
   }
 }

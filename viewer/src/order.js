@@ -8,7 +8,8 @@ const buckets = 2048;
 /** How far each vertex is in a direction. */
 export function depths(positions, { x, y, z }) {
   const list = new Float64Array(positions.length / 3);
-  for (let v = 0; v < list.length; ++v) list[v] = positions[3 * v] * x + positions[3 * v + 1] * y + positions[3 * v + 2] * z;
+  for (let v = 0; v < list.length; ++v)
+    list[v] = positions[3 * v] * x + positions[3 * v + 1] * y + positions[3 * v + 2] * z;
   return list;
 }
 
@@ -26,7 +27,8 @@ export function notBefore(cells, size, depth, most) {
 
 /** Faces by the depth of their first vertices, from far in the direction, where the eye is, to near; in buckets. */
 export function frontToBack(faces, depth) {
-  let least = Infinity, greatest = -Infinity;
+  let least = Infinity,
+    greatest = -Infinity;
   for (const d of depth) {
     least = Math.min(least, d);
     greatest = Math.max(greatest, d);

@@ -15,21 +15,39 @@ export class Player {
     this.playing = false;
     this.rate = 1;
     this.button = element("button", { type: "button", className: "play", onclick: () => this.toggle() }, "Play");
-    this.slider = element("input", { type: "range", min: motion.first, max: motion.last, step: "any", value: this.time, ariaLabel: "Time" });
+    this.slider = element("input", {
+      type: "range",
+      min: motion.first,
+      max: motion.last,
+      step: "any",
+      value: this.time,
+      ariaLabel: "Time",
+    });
     this.slider.oninput = () => this.stopAt(Number(this.slider.value));
     this.slider.onkeydown = (event) => this.key(event);
     this.label = element("output");
-    this.speed = element("select", { ariaLabel: "Speed" }, ...speeds.map((s) => element("option", { value: s, selected: s === 1 }, `${s} ×`)));
-    this.speed.onchange = () => { this.rate = Number(this.speed.value); };
-    addEventListener("keydown", (event) => { if (event.target === document.body) this.key(event); });
+    this.speed = element(
+      "select",
+      { ariaLabel: "Speed" },
+      ...speeds.map((s) => element("option", { value: s, selected: s === 1 }, `${s} ×`)),
+    );
+    this.speed.onchange = () => {
+      this.rate = Number(this.speed.value);
+    };
+    addEventListener("keydown", (event) => {
+      if (event.target === document.body) this.key(event);
+    });
     this.say();
   }
 
   /** The last frame that is not later. */
-  get frame() { return this.motion.frameAt(this.time); }
+  get frame() {
+    return this.motion.frameAt(this.time);
+  }
 
   key(event) {
-    const { frame } = this, whole = this.time === this.times[frame];
+    const { frame } = this,
+      whole = this.time === this.times[frame];
     if (event.key === " ") this.toggle();
     else if (event.key === "ArrowRight") this.stopAt(this.times[Math.min(frame + 1, this.times.length - 1)]);
     else if (event.key === "ArrowLeft") this.stopAt(this.times[Math.max(whole ? frame - 1 : frame, 0)]);

@@ -14,7 +14,12 @@ const label = (value) => (value === null || value === undefined ? "" : Number(va
 
 // Logarithmic axes are linear ones of logarithms: those of uPlot end with magnitudes that doubles can have.
 const log = (values) => values.map((x) => (x !== null && x > 0 ? Math.log10(x) : null));
-const power = (exponent) => (Number.isInteger(exponent) ? `1e${exponent}` : Number((10 ** exponent).toPrecision(2)).toExponential().replace("e+", "e"));
+const power = (exponent) =>
+  Number.isInteger(exponent)
+    ? `1e${exponent}`
+    : Number((10 ** exponent).toPrecision(2))
+        .toExponential()
+        .replace("e+", "e");
 const decades = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200];
 const wholes = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000];
 
@@ -24,19 +29,35 @@ const grid = { stroke: "#e4e8ee", width: 1 };
 const value = (isLog) => (_, x) => (x === null ? "" : isLog ? power(x) : label(x));
 
 function axis(name, size, isLog, whole = false) {
-  return { label: name, size, grid, ticks: grid, ...(isLog ? { incrs: decades } : whole ? { incrs: wholes } : {}),
-           values: (_, ticks) => ticks.map(isLog ? power : label) };
+  return {
+    label: name,
+    size,
+    grid,
+    ticks: grid,
+    ...(isLog ? { incrs: decades } : whole ? { incrs: wholes } : {}),
+    values: (_, ticks) => ticks.map(isLog ? power : label),
+  };
 }
 
 function seriesOf(plot) {
   const points = plot.points ? { show: true, size: 8 } : plot.bars ? { show: false } : {};
-  const paths = plot.bars ? { paths: uPlot.paths.bars({ size: [0.9, 40] }), fill: contactRed, stroke: contactRed, width: 0 } : {};
-  return plot.series.map(({ name }, i) => ({ label: name, stroke: stroke(i), width: 1.4, value: value(plot.log),
-                                             spanGaps: Boolean(plot.points), points, ...paths }));
+  const paths = plot.bars
+    ? { paths: uPlot.paths.bars({ size: [0.9, 40] }), fill: contactRed, stroke: contactRed, width: 0 }
+    : {};
+  return plot.series.map(({ name }, i) => ({
+    label: name,
+    stroke: stroke(i),
+    width: 1.4,
+    value: value(plot.log),
+    spanGaps: Boolean(plot.points),
+    points,
+    ...paths,
+  }));
 }
 
 function scalesOf(plot) {
-  const x = { time: false }, y = {};
+  const x = { time: false },
+    y = {};
   if (plot.bars) {
     const half = plot.times.length > 1 ? (plot.times[1] - plot.times[0]) / 2 : 0.5;
     x.range = (_, least, most) => [least - half, most + half];
@@ -57,15 +78,21 @@ function draw(plot, place, pick) {
     legend: { live: !plot.points, show: !plot.bars },
     hooks: pick ? { ready: [(u) => u.over.addEventListener("click", () => pick(u.posToVal(u.cursor.left, "x")))] } : {},
   };
-  const data = [plot.logX ? log(plot.times) : plot.times, ...plot.series.map((s) => (plot.log ? log(s.values) : s.values))];
+  const data = [
+    plot.logX ? log(plot.times) : plot.times,
+    ...plot.series.map((s) => (plot.log ? log(s.values) : s.values)),
+  ];
   const chart = new uPlot(options, data, place);
   new ResizeObserver(() => chart.setSize({ width: place.clientWidth, height })).observe(place);
 }
 
 /** A plot that is drawn when it is first seen, or by drawPlots(). */
 export function plotNode(plot, pick) {
-  const place = element("div", { className: "plot", role: "img", ariaLabel: `${plot.title}: ${plot.y} against ${plot.x}` },
-    element("h3", {}, plot.title));
+  const place = element(
+    "div",
+    { className: "plot", role: "img", ariaLabel: `${plot.title}: ${plot.y} against ${plot.x}` },
+    element("h3", {}, plot.title),
+  );
   const wait = new ResizeObserver(() => place.draw());
   place.draw = () => {
     if (place.clientWidth === 0 || place.drawn) return;
@@ -80,7 +107,8 @@ export function plotNode(plot, pick) {
 /** All that are in the page and not folded. */
 export const drawPlots = () => document.querySelectorAll(".plot").forEach((place) => place.draw());
 
-export const plotGrid = (plots, pick) => element("div", { className: "plots" }, ...plots.map((plot) => plotNode(plot, pick)));
+export const plotGrid = (plots, pick) =>
+  element("div", { className: "plots" }, ...plots.map((plot) => plotNode(plot, pick)));
 
 export function plotSection(plots, pick) {
   return section("Over time", plotGrid(plots, pick));
@@ -88,21 +116,32 @@ export function plotSection(plots, pick) {
 
 /** Points {x, y} of several series on logarithmic axes; points that are not above 0 have no place there. */
 export function scatter(title, x, y, series) {
-  const positive = series.map(({ name, points }) => ({ name, points: points.filter((p) => p.x > 0 && p.y > 0) })).filter((s) => s.points.length > 0);
+  const positive = series
+    .map(({ name, points }) => ({ name, points: points.filter((p) => p.x > 0 && p.y > 0) }))
+    .filter((s) => s.points.length > 0);
   if (positive.length === 0) return null;
   const all = [...new Set(positive.flatMap((s) => s.points.map((p) => p.x)))].sort((a, b) => a - b);
   const values = (points) => {
     const at = new Map(points.map((p) => [p.x, p.y]));
     return all.map((place) => at.get(place) ?? null);
   };
-  return plotNode({ title, x, y, log: true, logX: true, points: true, times: all,
-                    series: positive.map(({ name, points }) => ({ name, values: values(points) })) });
+  return plotNode({
+    title,
+    x,
+    y,
+    log: true,
+    logX: true,
+    points: true,
+    times: all,
+    series: positive.map(({ name, points }) => ({ name, values: values(points) })),
+  });
 }
 
 /** Contacts of each step as bars; of very many steps some together. `pick(step)` is called on a click. */
 export function contactBars(perStep, unit, pick) {
   const together = Math.ceil(perStep.length / mostBars);
-  const steps = [], sums = [];
+  const steps = [],
+    sums = [];
   perStep.forEach((n, i) => {
     if (i % together === 0) {
       steps.push(i + 1);
@@ -111,6 +150,25 @@ export function contactBars(perStep, unit, pick) {
     sums[sums.length - 1] += n;
   });
   const x = together > 1 ? `${unit}, ${together} together from` : unit;
-  return section(`Contacts by ${unit}`, plotNode({ title: "Pairs of features that meet", x, y: "contacts", log: false, bars: true,
-    times: steps, series: [{ name: "contacts", values: sums }] }, (at) => pick(Math.max(1, Math.round(at)))));
+  return section(
+    `Contacts by ${unit}`,
+    plotNode(
+      {
+        title: "Pairs of features that meet",
+        x,
+        y: "contacts",
+        log: false,
+        bars: true,
+        times: steps,
+        series: [{ name: "contacts", values: sums }],
+      },
+      (at) => pick(Math.max(1, Math.round(at))),
+    ),
+  );
+}
+
+/** Plots that are there, side by side; null where none is. */
+export function gridOf(nodes) {
+  const there = nodes.filter(Boolean);
+  return there.length > 0 ? element("div", { className: "plots" }, ...there) : null;
 }

@@ -11,7 +11,7 @@ import { Player } from "./player.js";
 import { View } from "./view.js";
 
 const mostListed = 1000;
-const mostWithEdges = 20000;  // faces: of more, edges are drawn when they are asked for
+const mostWithEdges = 20000; // faces: of more, edges are drawn when they are asked for
 
 /** Contacts of each step; where the page does not say, those that are listed. */
 export function contactsPerStep(contacts, steps) {
@@ -38,10 +38,16 @@ class Stage {
     this.scene = page.scene;
     this.motion = new Motion(page.scene, frames);
     this.inStep = page.scene.unit !== "s";
-    this.list = page.contacts ? [...inOrder(page.contacts, mostListed), ...intersectionsOf(page.contacts, cells)].slice(0, mostListed) : [];
+    this.list = page.contacts
+      ? [...inOrder(page.contacts, mostListed), ...intersectionsOf(page.contacts, cells)].slice(0, mostListed)
+      : [];
     this.byStep = grouped(this.list);
     this.perStep = contactsPerStep(page.contacts, page.scene.steps.list.length);
-    this.place = element("div", { className: "stage", ariaLabel: "The mesh; drag to turn, scroll or pinch to zoom", role: "img" });
+    this.place = element("div", {
+      className: "stage",
+      ariaLabel: "The mesh; drag to turn, scroll or pinch to zoom",
+      role: "img",
+    });
     this.caption = element("p", { className: "caption", role: "status" });
     this.view = new View(this.place, page.scene, cells);
     this.player = new Player(this.motion, (time) => this.show(time));
@@ -49,20 +55,36 @@ class Stage {
   }
 
   makeNode() {
-    const left = element("div", { className: "seen" }, this.place, this.caption, this.timeLine(), this.controls(),
-      element("p", { className: "soft" }, this.scene.note));
+    const left = element(
+      "div",
+      { className: "seen" },
+      this.place,
+      this.caption,
+      this.timeLine(),
+      this.controls(),
+      element("p", { className: "soft" }, this.scene.note),
+    );
     this.node = element("section", { className: "motion" }, element("h2", { className: "unseen" }, "The motion"), left);
     this.place.append(this.cameraButtons());
     if (!this.page.contacts || this.page.contacts.total + this.page.contacts.initial === 0) return;
-    this.contacts = contactList(this.page.contacts, this.list, this.scene.parts, this.inStep, (contact) => this.pick(contact));
+    this.contacts = contactList(this.page.contacts, this.list, this.scene.parts, this.inStep, (contact) =>
+      this.pick(contact),
+    );
     this.node.append(this.contacts.node);
     this.node.classList.add("two");
   }
 
   cameraButtons() {
     const button = (text, onclick) => element("button", { type: "button", onclick }, text);
-    this.toContact = button("Contact", () => { this.chosen && this.pick(this.chosen); });
-    return element("div", { className: "camera" }, this.toContact, button("Whole scene", () => this.view.showAll()));
+    this.toContact = button("Contact", () => {
+      this.chosen && this.pick(this.chosen);
+    });
+    return element(
+      "div",
+      { className: "camera" },
+      this.toContact,
+      button("Whole scene", () => this.view.showAll()),
+    );
   }
 
   timeLine() {
@@ -81,10 +103,23 @@ class Stage {
     const edges = element("input", { type: "checkbox", checked: scene.cells.faces <= mostWithEdges });
     edges.onchange = () => view.showEdges(edges.checked);
     view.showEdges(edges.checked);
-    const steps = this.perStep.filter((n) => n > 0).length > 1
-      ? stepButtons(this.perStep, () => this.motion.stepAt(player.time), (step) => this.pickStep(step)) : [];
-    return element("div", { className: "controls" }, player.button, ...steps, player.label, player.speed,
-      element("label", {}, edges, " edges"));
+    const steps =
+      this.perStep.filter((n) => n > 0).length > 1
+        ? stepButtons(
+            this.perStep,
+            () => this.motion.stepAt(player.time),
+            (step) => this.pickStep(step),
+          )
+        : [];
+    return element(
+      "div",
+      { className: "controls" },
+      player.button,
+      ...steps,
+      player.label,
+      player.speed,
+      element("label", {}, edges, " edges"),
+    );
   }
 
   show(time) {
@@ -100,7 +135,9 @@ class Stage {
   }
 
   say(text, legend) {
-    const keys = legend ? [element("span", { className: "key first" }), element("span", { className: "key second" }), " "] : [];
+    const keys = legend
+      ? [element("span", { className: "key first" }), element("span", { className: "key second" }), " "]
+      : [];
     this.caption.replaceChildren(...keys, text);
   }
 
@@ -125,8 +162,12 @@ class Stage {
     this.view.choose(null);
     this.player.stopAt(this.motion.step(step)[0]);
     const total = this.perStep[step - 1];
-    return this.say(total > 0 ? `Step ${number(step)} has ${number(total)} contacts. None of them is listed: noli verify --max-reports lists more.`
-      : `Contacts of the step before go on in step ${number(step)}.`, false);
+    return this.say(
+      total > 0
+        ? `Step ${number(step)} has ${number(total)} contacts. None of them is listed: noli verify --max-reports lists more.`
+        : `Contacts of the step before go on in step ${number(step)}.`,
+      false,
+    );
   }
 
   /** So that a click on a contact below the view shows it on a small screen. */
@@ -158,8 +199,12 @@ export async function stageSection(page, report) {
     return { node: stage.node, goToTime: (time) => stage.player.stopAt(time), open: () => stage.open() };
   } catch (error) {
     console.info(error);
-    const node = element("section", {}, element("h2", {}, "The motion"),
-      element("p", {}, "This browser draws no 3D: WebGL is missing or switched off."));
+    const node = element(
+      "section",
+      {},
+      element("h2", {}, "The motion"),
+      element("p", {}, "This browser draws no 3D: WebGL is missing or switched off."),
+    );
     if (page.contacts) {
       const list = inOrder(page.contacts, mostListed);
       node.append(contactList(page.contacts, list, page.scene.parts, page.scene.unit !== "s", () => {}).node);

@@ -25,6 +25,13 @@ const fragment = `
 
 /** Colours are those of the vertices, as a screen shows them. */
 export function surface() {
-  return new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, vertexColors: true, side: THREE.DoubleSide,
-                                    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  return new THREE.ShaderMaterial({
+    vertexShader: vertex,
+    fragmentShader: fragment,
+    vertexColors: true,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
 }

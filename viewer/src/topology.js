@@ -37,10 +37,12 @@ export class Topology {
   facesNear(positions, { x, y, z }, radius) {
     const { faces } = this.cells;
     const square = radius * radius;
-    const near = (v) => (positions[3 * v] - x) ** 2 + (positions[3 * v + 1] - y) ** 2 + (positions[3 * v + 2] - z) ** 2 < square;
+    const near = (v) =>
+      (positions[3 * v] - x) ** 2 + (positions[3 * v + 1] - y) ** 2 + (positions[3 * v + 2] - z) ** 2 < square;
     const corners = [];
     for (let i = 0; i < faces.length; i += 3) {
-      if (near(faces[i]) || near(faces[i + 1]) || near(faces[i + 2])) corners.push(faces[i], faces[i + 1], faces[i + 2]);
+      if (near(faces[i]) || near(faces[i + 1]) || near(faces[i + 2]))
+        corners.push(faces[i], faces[i + 1], faces[i + 2]);
     }
     return corners;
   }
@@ -71,7 +73,8 @@ export class Topology {
       return v;
     };
     const join = (a, b) => {
-      const p = root(a), q = root(b);
+      const p = root(a),
+        q = root(b);
       if (p < q) parent[q] = p;
       else parent[p] = q;
     };

@@ -13,7 +13,7 @@ import { surface } from "./surface.js";
 import { Topology } from "./topology.js";
 
 const fieldOfView = 35;
-const mostOutlined = 3000;  // faces about a contact; of more, lines hide what they outline
+const mostOutlined = 3000; // faces about a contact; of more, lines hide what they outline
 
 /** Whether the browser has no GPU: there smooth edges double the time of each frame. */
 function drawsInSoftware() {
@@ -35,7 +35,8 @@ function coloursOf(scene, topology) {
     return list;
   }
   scene.parts.forEach((part, i) => {
-    for (let v = part.first; v < part.first + part.vertices; ++v) paint(v, part.fixed ? colours.fixedBody : colours.body(i));
+    for (let v = part.first; v < part.first + part.vertices; ++v)
+      paint(v, part.fixed ? colours.fixedBody : colours.body(i));
   });
   return list;
 }
@@ -73,7 +74,11 @@ export class View {
     this.world.add(this.group);
     const dot = { size: 7, sizeAttenuation: false };
     this.faces = this.add(THREE.Mesh, cells.faces, surface(), true);
-    this.edges = this.add(THREE.LineSegments, [], new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity: 0.28 }));
+    this.edges = this.add(
+      THREE.LineSegments,
+      [],
+      new THREE.LineBasicMaterial({ color: colours.ink, transparent: true, opacity: 0.28 }),
+    );
     this.edges.renderOrder = 2;
     // Thin lines and dots are darker than faces, or nobody would see them.
     const dark = { vertexColors: true, color: new THREE.Color(0.22, 0.22, 0.22) };
@@ -88,13 +93,14 @@ export class View {
     if (coloured) geometry.setAttribute("color", this.colours);
     setIndex(geometry, indices);
     const object = new Kind(geometry, material);
-    object.frustumCulled = false;  // its bounds change with each frame
+    object.frustumCulled = false; // its bounds change with each frame
     this.group.add(object);
     return object;
   }
 
   makeCamera() {
-    const least = new THREE.Vector3(...this.scene.least), greatest = new THREE.Vector3(...this.scene.greatest);
+    const least = new THREE.Vector3(...this.scene.least),
+      greatest = new THREE.Vector3(...this.scene.greatest);
     this.centre = least.clone().add(greatest).multiplyScalar(0.5);
     this.radius = Math.max(0.5 * greatest.distanceTo(least), 1e-30);
     this.flat = this.scene.dimension === 2;
@@ -102,7 +108,9 @@ export class View {
     this.camera = new THREE.PerspectiveCamera(fieldOfView, 1, this.radius * 0.01, this.radius * 100);
     this.camera.up.set(0, this.flat ? 1 : 0, this.flat ? 0 : 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.addEventListener("start", () => { this.touched = true; });
+    this.controls.addEventListener("start", () => {
+      this.touched = true;
+    });
     this.controls.addEventListener("change", () => this.changed());
     this.showAll();
   }
@@ -143,13 +151,17 @@ export class View {
 
   /** The position of a vertex as it is drawn. */
   at(v) {
-    return new this.centre.constructor().fromBufferAttribute(this.positions, v).multiply(this.group.scale).add(this.group.position);
+    return new this.centre.constructor()
+      .fromBufferAttribute(this.positions, v)
+      .multiply(this.group.scale)
+      .add(this.group.position);
   }
 
   /** Positions of all vertices as they are drawn. */
   allPositions() {
     const { array } = this.positions;
-    const scale = this.group.scale.toArray(), shift = this.group.position.toArray();
+    const scale = this.group.scale.toArray(),
+      shift = this.group.position.toArray();
     return Float64Array.from(array, (x, i) => (x / 65535) * scale[i % 3] + shift[i % 3]);
   }
 
@@ -189,7 +201,11 @@ export class View {
   /** Highlights the features of a contact, or nothing. */
   choose(contact) {
     if (!contact || !this.has(contact.features)) this.highlight.clear();
-    else this.highlight.set(contact.features, contact.features.map((f) => this.topology.cornersOf([f])));
+    else
+      this.highlight.set(
+        contact.features,
+        contact.features.map((f) => this.topology.cornersOf([f])),
+      );
   }
 
   showOthers(contacts) {
@@ -207,7 +223,10 @@ export class View {
       corners: contact.features.map((f) => points(this.topology.cornersOf([f]))),
       features: contact.features.map(points),
       point: contact.point ? new THREE.Vector3(...contact.point) : null,
-      usual: this.usual, flat: this.flat, sceneRadius: this.radius, mesh,
+      usual: this.usual,
+      flat: this.flat,
+      sceneRadius: this.radius,
+      mesh,
     });
     this.layOut(goal, mesh.positions);
     this.fit(goal);
@@ -216,11 +235,13 @@ export class View {
 
   /** Draws with the next frame of the browser, however often it is asked to. */
   changed() {
-    this.waiting ??= new Promise((done) => requestAnimationFrame(() => {
-      this.waiting = null;
-      this.draw();
-      done();
-    }));
+    this.waiting ??= new Promise((done) =>
+      requestAnimationFrame(() => {
+        this.waiting = null;
+        this.draw();
+        done();
+      }),
+    );
     return this.waiting;
   }
 

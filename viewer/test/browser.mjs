@@ -6,16 +6,23 @@
 //
 //   node browser.mjs CHROMIUM REPORT.html SCREENSHOTS [--expect JSON]
 //
-// JSON: {"listed": n, "says": ["text", ...], "lacks": [...], "word": "text", "tone": "text", "plots": n, "frames": n, "most_open_seconds": s,
-//        "shows": texts that are seen without unfolding anything, "folds": texts that are not,
-//        "meets": the least share of the view's pixels that have the colours of what meets, seen without a click or scrolling; 0: none have,
-//        "warns": a warning that has to come, "last_mark": text below the view after a click on the last mark of the time line}
+// JSON:
+//   word, tone, listed, plots, frames    what the page has
+//   says, lacks                          texts that are, or are not, anywhere
+//   shows, folds                         texts that are, or are not, seen without unfolding anything
+//   meets                                the least share of the view's pixels with the colours of what meets, seen
+//                                        without a click or scrolling; 0: none have
+//   last_mark                            text below the view after a click on the last mark of the time line
+//   warns                                a warning in the console that has to come
+//   most_open_seconds                    until the page is there
 import { createRequire } from "node:module";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { basename, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const { default: puppeteer } = await import(pathToFileURL(createRequire(`${process.cwd()}/`).resolve("puppeteer-core")));
+const { default: puppeteer } = await import(
+  pathToFileURL(createRequire(`${process.cwd()}/`).resolve("puppeteer-core"))
+);
 
 const [chromium, report, folder, , expectation = "{}"] = process.argv.slice(2);
 const expected = JSON.parse(expectation);
@@ -43,7 +50,7 @@ async function drawnShare(page) {
   });
 }
 
-/** The share of pixels with the colours of faces that meet (src/colours.js), of the part of the view that is seen without scrolling. */
+/** The share of pixels with the colours of faces that meet (src/colours.js), of what is seen of the view without scrolling. */
 async function meetingShare(page) {
   const clip = await page.$eval(".stage", (stage) => {
     const { x, y, width, bottom } = stage.getBoundingClientRect();
@@ -69,7 +76,10 @@ async function meetingShare(page) {
 /** What meets is seen at once; and what is counted is gone when it is not drawn, so that this test can fail. */
 async function lookAtMeeting(page, name) {
   const seen = await meetingShare(page);
-  expect(expected.meets === 0 ? seen === 0 : seen >= expected.meets, `${name}: ${seen} of the view has the colours of what meets, expected ${expected.meets}`);
+  expect(
+    expected.meets === 0 ? seen === 0 : seen >= expected.meets,
+    `${name}: ${seen} of the view has the colours of what meets, expected ${expected.meets}`,
+  );
   await page.evaluate(async () => {
     const { view } = await window.noliReport;
     view.choose(null);
@@ -87,8 +97,13 @@ async function lookAtMeeting(page, name) {
 
 /** On a phone. */
 async function lookAtTargets(page, name) {
-  const low = await page.$$eval("button, select, tr.pick, .marks, .timeline input, .controls label, header summary, section > details > summary",
-    (list) => list.filter((node) => node.offsetParent && node.getBoundingClientRect().height < 40).map((node) => `${node.className || node.tagName} ${node.textContent.slice(0, 20)}`));
+  const low = await page.$$eval(
+    "button, select, tr.pick, .marks, .timeline input, .controls label, header summary, section > details > summary",
+    (list) =>
+      list
+        .filter((node) => node.offsetParent && node.getBoundingClientRect().height < 40)
+        .map((node) => `${node.className || node.tagName} ${node.textContent.slice(0, 20)}`),
+  );
   expect(low.length === 0, `${name}: lower than 40 pixels: ${[...new Set(low)].slice(0, 5).join("; ")}`);
 }
 
@@ -96,17 +111,30 @@ async function lookAtTargets(page, name) {
 async function lookAtList(page, name) {
   const { chosen, last } = await page.evaluate(async () => {
     const { stage } = await window.noliReport;
-    return { chosen: stage ? stage.list.indexOf(stage.chosen) : null, last: document.querySelectorAll("tr.pick").length - 1 };
+    return {
+      chosen: stage ? stage.list.indexOf(stage.chosen) : null,
+      last: document.querySelectorAll("tr.pick").length - 1,
+    };
   });
   if (chosen !== null) expect(chosen === 0, `${name}: it opens with contact ${chosen + 1}, not with the first`);
-  await page.$eval(`tr.pick:nth-child(${Math.min(last, 3) + 1})`, (row) => row.scrollIntoView({ block: "center", behavior: "instant" }));
+  await page.$eval(`tr.pick:nth-child(${Math.min(last, 3) + 1})`, (row) =>
+    row.scrollIntoView({ block: "center", behavior: "instant" }),
+  );
   await page.click(`tr.pick:nth-child(${Math.min(last, 3) + 1})`);
   expect(await page.$(`tr.picked:nth-child(${Math.min(last, 3) + 1})`), `${name}: a contact cannot be picked`);
   if (chosen === null) return;
-  const inView = await page.waitForFunction(() => {
-    const { top, bottom } = document.querySelector(".stage").getBoundingClientRect();
-    return top >= 0 && bottom <= innerHeight;
-  }, { timeout: 5000, polling: 100 }).then(() => true, () => false);
+  const inView = await page
+    .waitForFunction(
+      () => {
+        const { top, bottom } = document.querySelector(".stage").getBoundingClientRect();
+        return top >= 0 && bottom <= innerHeight;
+      },
+      { timeout: 5000, polling: 100 },
+    )
+    .then(
+      () => true,
+      () => false,
+    );
   expect(inView, `${name}: a click on a contact does not bring the view to the screen`);
   if (last === 0) return;
   await page.focus("tr.picked");
@@ -126,7 +154,13 @@ async function lookAtMarks(page, name) {
 /** All texts, those too that are folded, except for tables within tables. */
 async function wholeText(page) {
   for (let depth = 0; depth < 3; ++depth) {
-    await page.$$eval("details", (list) => list.filter((d) => !d.closest("td")).forEach((d) => { d.open = true; }));
+    await page.$$eval("details", (list) =>
+      list
+        .filter((d) => !d.closest("td"))
+        .forEach((d) => {
+          d.open = true;
+        }),
+    );
     await new Promise((done) => setTimeout(done, 100));
   }
   return page.evaluate(() => document.body.innerText);
@@ -157,7 +191,8 @@ async function look(browser, name, [width, height]) {
   await page.setViewport({ width, height, isMobile: name === "phone", hasTouch: name === "phone" });
   let warned = false;
   page.on("console", (message) => {
-    if (!["error", "warn", "warning"].includes(message.type()) || /GPU stall|GL Driver Message/.test(message.text())) return;
+    if (!["error", "warn", "warning"].includes(message.type()) || /GPU stall|GL Driver Message/.test(message.text()))
+      return;
     if (expected.warns && message.text().includes(expected.warns)) warned = true;
     else failures.push(`${name}: console: ${message.text()}`);
   });
@@ -184,10 +219,12 @@ async function look(browser, name, [width, height]) {
   });
   expect(found.wide <= 0, `${name}: the page is ${found.wide} pixels too wide`);
   for (const key of ["word", "tone", "listed", "plots", "frames"]) {
-    if (key in expected) expect(found[key] === expected[key], `${name}: ${key}: expected ${expected[key]}, found ${found[key]}`);
+    if (key in expected)
+      expect(found[key] === expected[key], `${name}: ${key}: expected ${expected[key]}, found ${found[key]}`);
   }
   for (const text of expected.shows ?? []) expect(found.seen.includes(text), `${name}: one does not see ${text}`);
-  for (const text of expected.folds ?? []) expect(!found.seen.includes(text), `${name}: one sees ${text} without unfolding it`);
+  for (const text of expected.folds ?? [])
+    expect(!found.seen.includes(text), `${name}: one sees ${text} without unfolding it`);
   if (expected.warns) expect(warned, `${name}: no warning about ${expected.warns}`);
   if ("most_open_seconds" in expected) expect(seconds <= expected.most_open_seconds, `${name}: opened in ${seconds} s`);
   const result = { name, open_seconds: seconds, frames: found.frames, listed: found.listed, plots: found.plots };
@@ -203,10 +240,23 @@ async function look(browser, name, [width, height]) {
       const label = () => page.$eval("output", (node) => node.textContent);
       const before = await label();
       await page.click(".play");
-      const plays = await page.waitForFunction((text) => document.querySelector("output").textContent !== text,
-                                               { timeout: 30000, polling: 100 }, before).then(() => true, () => false);
-      expect(plays, `${name}: it does not play: ${before}, then ${await label()}, ${await page.$eval(".play", (b) => b.textContent)}`);
-      await page.$eval(".play", (button) => { if (button.textContent === "Pause") button.click(); });
+      const plays = await page
+        .waitForFunction(
+          (text) => document.querySelector("output").textContent !== text,
+          { timeout: 30000, polling: 100 },
+          before,
+        )
+        .then(
+          () => true,
+          () => false,
+        );
+      expect(
+        plays,
+        `${name}: it does not play: ${before}, then ${await label()}, ${await page.$eval(".play", (b) => b.textContent)}`,
+      );
+      await page.$eval(".play", (button) => {
+        if (button.textContent === "Pause") button.click();
+      });
     }
   }
   if (found.listed > 0) await lookAtList(page, name);
@@ -218,9 +268,15 @@ async function look(browser, name, [width, height]) {
   expect(!raw, `${name}: the page has raw JSON: ${raw}`);
   const closed = await page.$("tr.nested details:not([open])");
   if (closed) {
-    await closed.evaluate((details) => { details.open = true; });
-    const filled = await page.waitForFunction((details) => details.querySelector("td"), { timeout: 10000, polling: 100 }, closed)
-      .then(() => true, () => false);
+    await closed.evaluate((details) => {
+      details.open = true;
+    });
+    const filled = await page
+      .waitForFunction((details) => details.querySelector("td"), { timeout: 10000, polling: 100 }, closed)
+      .then(
+        () => true,
+        () => false,
+      );
     expect(filled, `${name}: a table in a row stays empty`);
   }
   await page.screenshot({ path: `${folder}/${basename(report, ".html")}-${name}.png`, fullPage: true });
@@ -231,7 +287,13 @@ async function look(browser, name, [width, height]) {
 mkdirSync(folder, { recursive: true });
 const browser = await puppeteer.launch({
   executablePath: chromium,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--host-resolver-rules=MAP * ~NOTFOUND"],
+  args: [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--host-resolver-rules=MAP * ~NOTFOUND",
+  ],
 });
 const results = [];
 try {
