@@ -46,7 +46,11 @@ class Claims : public Simulate {
   /// All that it says; of a rejection that is about no claim, which may be told otherwise, that it is one.
   static std::string told_by(const Process& process) {
     const std::string line = process.verdict_of_checker();
-    if (process.exit_code != 3) return process.out.substr(0, process.out.rfind(" (noli_check"));
+    if (process.exit_code != 3) {
+      const std::string said = process.out.substr(0, process.out.rfind(" (noli_check"));
+      const std::size_t next = said.find("Next: ");  // names the other checker
+      return next == std::string::npos ? said : said.substr(0, next) + said.substr(said.find('\n', next) + 1);
+    }
     return line.starts_with("REJECTED  the claim: ") ? line : line.substr(0, line.find(' '));
   }
   /// What the checkers that are there say: the same words.

@@ -72,7 +72,7 @@ TEST_P(EndedBySignal, WhileAPipeIsWaitedFor) {
   }
   const Process info = run_noli({"info", pipe}, sends(GetParam()));
   EXPECT_EQ(info.exit_code, 2);
-  EXPECT_EQ(info.err, "noli: " + pipe + ": interrupted while it was read\n");
+  EXPECT_EQ(info.err, "noli: error: " + pipe + ": interrupted while it was read\n");
 }
 
 TEST_P(EndedBySignal, WhileTheRestOfAPipeIsWaitedFor) {

@@ -83,7 +83,7 @@ TEST(FuzzPrograms, KnowBeforeTheyBeginWhereNoFileCanBeMade) {
         const Process process = run_noli({"fuzz", what, "--count", "1", option, folder});
         EXPECT_EQ(process.exit_code, 3) << what << option << folder << process.out << process.err;
         EXPECT_EQ(process.out, "");
-        EXPECT_EQ(process.err.rfind(std::string("noli: ") + option + " " + folder + ": cannot be ", 0), 0u)
+        EXPECT_EQ(process.err.rfind(std::string("noli: error: ") + option + " " + folder + ": cannot be ", 0), 0u)
             << process.err;
       }
     }
@@ -307,7 +307,7 @@ TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
   const Arguments words = {"fuzz", "proofs", proof, a, b, "--count", "20", "--verified-every", "1", "--out", out};
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 4);
-  EXPECT_TRUE(process.err.starts_with("noli: not all that was found is saved: ")) << process.err;
+  EXPECT_TRUE(process.err.starts_with("noli: error: not all that was found is saved: ")) << process.err;
   EXPECT_NE(process.out.find("; not saved"), std::string::npos) << process.out;
 }
 
