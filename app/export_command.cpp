@@ -96,7 +96,7 @@ ExitCode show_contact(const ExportArguments& arguments) {
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
-  if (request.run.extension() == ".json") return show_contact(arguments);
+  if (std::filesystem::is_regular_file(request.run)) return show_contact(arguments);
   if (arguments.contact)
     throw UsageError("--contact: is for a result of noli verify (--json); expected no run with it");
   note_if_being_written(request.run);

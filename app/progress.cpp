@@ -2,6 +2,7 @@
 #include "app/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +12,21 @@
 namespace noli::app {
 namespace {
 
-constexpr std::size_t line_length = 110;  ///< a longer line would leave rests of itself
+/// Of the terminal that errors go to; a longer line would leave rests of itself.
+std::size_t line_length() {
+  struct winsize size = {};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 79;
+  return size.ws_col - 1U;
+}
+
+/// As many whole letters of UTF-8 as fit.
+std::string shortened(const std::string& text, std::size_t most) {
+  std::size_t end = 0, letters = 0;
+  for (; end < text.size(); ++end) {
+    if ((text[end] & 0xC0) != 0x80 && ++letters > most) break;
+  }
+  return text.substr(0, end);
+}
 
 }  // namespace
 
@@ -26,8 +41,8 @@ void Progress::show(double share, const std::string& at) {
   constexpr int width = 20;
   const int full = std::clamp(static_cast<int>(share * width), 0, width);
   const std::string text = fmt::format("noli: {} [{:=<{}}{:<{}}] {:3.0f} %{}{}", label_, "", full, "", width - full,
-                                       100 * share, at.empty() ? "" : "  " + at, left(share));
-  std::fputs(("\r\x1b[K" + text.substr(0, line_length)).c_str(), stderr);
+                                       100 * share, left(share), at.empty() ? "" : "  " + at);
+  std::fputs(("\r\x1b[K" + shortened(text, line_length())).c_str(), stderr);
   shown_ = true;
   since_last_ = Stopwatch();
 }

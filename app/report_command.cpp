@@ -97,7 +97,6 @@ struct VerifyResult {
 class Report {
  public:
   explicit Report(const ReportArguments& arguments) : arguments_(arguments), inputs_(sorted(arguments.inputs)) {
-    inputs_.frames = order_frames(std::move(inputs_.frames), arguments.order).frames;
     report_.page = {
         {"title", ""},
         {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
@@ -114,6 +113,7 @@ class Report {
 
   const report::ReportPage& operator()() {
     read_results();
+    put_frames_in_order();
     if (inputs_.run) note_if_being_written(*inputs_.run);
     if (inputs_.run) report_run(*inputs_.run, arguments_.limits, report_);
     if (!inputs_.frames.empty()) put_frames();
@@ -146,6 +146,18 @@ class Report {
   static std::string_view tone_of(const Json& result) {
     const Json word = result.value("verdict", Json("report"));
     return report::name(report::tone_of(word.is_string() ? word.get_ref<const std::string&>() : ""));
+  }
+
+  /// A result that was asked for with --order natural is shown so too.
+  void put_frames_in_order() {
+    FrameOrder order = arguments_.order;
+    if (verified_ && order == FrameOrder::checked) {
+      const Json how = verified_->json.at("statement").value("order", Json());
+      if (how.is_string() && how.get<std::string>().find("(--order natural)") != std::string::npos) {
+        order = FrameOrder::natural;
+      }
+    }
+    inputs_.frames = order_frames(std::move(inputs_.frames), order).frames;
   }
 
   /// After those of the run and of verify: of equals the first is at the head.

@@ -224,6 +224,19 @@ void require_there(const std::vector<std::filesystem::path>& frames) {
   throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
 }
 
+/// A folder of frames is no run.
+void require_no_frames_inside(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(trajectory_path(folder), error)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".ply" && ending != ".obj") continue;
+    throw InputError(folder.string(), "",
+                     fmt::format("is a folder, but no run; to verify the frames in it, name them: noli verify {}",
+                                 (folder / ("*" + ending)).string()));
+  }
+}
+
 /// What goes with --reproduce, and what does not.
 void prepare_to_reproduce(VerifyRequest& request) {
   if (request.reproduce && !request.run) {
@@ -289,6 +302,7 @@ ExitCode run(VerifyArguments& arguments) {
   request.deadline = begin_work(arguments.time_limit);
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
+  if (request.run) require_no_frames_inside(request.frames[0]);
   if (!request.run) {
     request.put_in_order();
   } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
@@ -325,7 +339,7 @@ ExitCode run(VerifyArguments& arguments) {
   if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
   // The JSON of 10,000 frames takes more memory than all else.
   Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
-  output.write("verify", report::verify_answer(request, outcome), std::move(json));
+  output.write("verify", report::verify_answer(request, outcome, arguments.results.json.value_or("")), std::move(json));
   return exit_code(outcome.verdict);
 }
 
@@ -354,7 +368,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   add_threads_option(command, request.threads);
   command
       .add_option("--max-reports", request.max_reports,
-                  "List at most so many contacts, shared fairly by the steps; counts are always exact")
+                  "List at most N contacts, shared fairly by the steps; counts do not depend on it")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N")

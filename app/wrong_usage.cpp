@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -18,30 +17,37 @@ namespace {
 
 /// Names that other programs have for what is here, and what to do instead.
 struct OtherName {
-  std::string_view name, instead;
+  std::string_view name, needs, instead;  ///< `needs`: the option that the command must have for this advice
 };
 constexpr std::array<OtherName, 20> other_names = {{
-    {"--tolerance", "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
-    {"--eps", "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
-    {"--epsilon", "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
-    {"--thickness", "--min-distance DISTANCE asks for a gap"},
-    {"--distance", "--min-distance DISTANCE asks for a gap"},
-    {"--jobs", "--threads N says how many threads"},
-    {"-j", "--threads N says how many threads"},
-    {"--timeout", "--time-limit TIME ends the work"},
-    {"--duration", "--until SECONDS says when to stop, --time-limit TIME ends the work"},
-    {"--out", "--json OUT writes the result"},
-    {"-o", "--json OUT writes the result"},
-    {"--output", "--json OUT writes the result"},
-    {"--all", "--keep-going goes through all steps"},
-    {"--continue", "--keep-going goes through all steps"},
-    {"--sort", "--order natural sorts frames by the numbers in their names"},
-    {"--natural", "--order natural sorts frames by the numbers in their names"},
-    {"--overwrite", "--force lets outputs replace files"},
-    {"-f", "--force lets outputs replace files"},
-    {"-y", "--force lets outputs replace files"},
-    {"--silent", "-q leaves the exit code alone"},
+    {"--tolerance", "--min-distance",
+     "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
+    {"--eps", "--min-distance", "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
+    {"--epsilon", "--min-distance", "answers are exact, there is no tolerance; --min-distance DISTANCE asks for a gap"},
+    {"--thickness", "--min-distance", "--min-distance DISTANCE asks for a gap"},
+    {"--distance", "--min-distance", "--min-distance DISTANCE asks for a gap"},
+    {"--jobs", "--threads", "--threads N says how many threads"},
+    {"-j", "--threads", "--threads N says how many threads"},
+    {"--timeout", "--time-limit", "--time-limit TIME ends the work"},
+    {"--duration", "--until", "--until SECONDS says when to stop, --time-limit TIME ends the work"},
+    {"--out", "--json", "--json OUT writes the result"},
+    {"-o", "--json", "--json OUT writes the result"},
+    {"--output", "--json", "--json OUT writes the result"},
+    {"--all", "--keep-going", "--keep-going goes through all steps"},
+    {"--continue", "--keep-going", "--keep-going goes through all steps"},
+    {"--sort", "--order", "--order natural sorts frames by the numbers in their names"},
+    {"--natural", "--order", "--order natural sorts frames by the numbers in their names"},
+    {"--overwrite", "--force", "--force lets outputs replace files"},
+    {"-f", "--force", "--force lets outputs replace files"},
+    {"-y", "--force", "--force lets outputs replace files"},
+    {"--silent", "--quiet", "-q prints nothing and leaves the exit code"},
 }};
+
+/// A word of the user as messages quote it: of a long one the beginning.
+std::string quoted_word(const std::string& word) {
+  constexpr std::size_t most = 80;
+  return word.size() <= most ? word : word.substr(0, most) + "...";
+}
 
 /// Least number of letters to insert, to remove, to replace or to exchange with the next.
 std::size_t edits(std::string_view a, std::string_view b) {
@@ -108,18 +114,21 @@ std::optional<std::string> nearest_option(const CLI::App& app, const std::string
   return std::ranges::count_if(known, has) == 1 ? std::optional(*found) : std::nullopt;
 }
 
+/// "-j" of "-j4", "--order" of "--order=natural"
+std::string name_of(const std::string& argument) {
+  const bool with_number = argument.size() > 2 && argument[1] != '-' && argument[2] >= '0' && argument[2] <= '9';
+  return with_number ? argument.substr(0, 2) : argument.substr(0, argument.find('='));
+}
+
 std::string unknown_option(const CLI::App& app, const std::string& argument) {
-  const std::string name = argument.substr(0, argument.find('='));
-  const std::string what = fmt::format("`{}` has no option {}", full_name(app), name);
+  const std::string name = name_of(argument);
+  const std::string what = fmt::format("`{}` has no option {}", full_name(app), quoted_word(name));
   if (const auto meant = nearest_option(app, as_option(name))) {
     return fmt::format("{}; did you mean {}? {}", what, *meant, more_help(app));
   }
   const auto* const other = std::ranges::find(other_names, name, &OtherName::name);
-  const std::string needed =
-      other == other_names.end() ? "" : std::string(other->instead.substr(0, other->instead.find(' ')));
-  const bool helps = other != other_names.end() && (!needed.starts_with('-') || known_option(app, needed));
-  if (!helps) return fmt::format("{}; {}", what, more_help(app));
-  return fmt::format("{}: {}", what, other->instead);
+  const bool helps = other != other_names.end() && known_option(app, std::string(other->needs));
+  return helps ? fmt::format("{}: {}", what, other->instead) : fmt::format("{}; {}", what, more_help(app));
 }
 
 /// "X not in {a,b}" with what may have been meant.
@@ -141,30 +150,50 @@ std::optional<std::string> unknown_value(const std::string& said) {
   }
   const auto meant = nearest(value, known);
   return fmt::format(
-      "{}{} is unknown; {}", option, value.empty() ? "''" : value,
+      "{}{} is unknown; {}", option, value.empty() ? "''" : quoted_word(value),
       meant ? fmt::format("did you mean {}?", *meant) : fmt::format("expected one of {};", fmt::join(known, ", ")));
 }
 
-/// What CLI11 says of a fault, and what we say.
+/// What CLI11 says of a fault, as the texts between its parts, and what we say of these parts.
 struct Wording {
-  const char *theirs, *ours;
+  std::array<std::string_view, 4> between;  ///< the first may be empty: then the first part is what stands before it
+  const char* ours;
 };
-constexpr std::array<Wording, 7> wordings = {{
-    {"(.*): Value (.*) not in range (.*) to (.*)", "$1: $2 is wrong; expected a number from $3 to $4;"},
-    {"(.*) excludes (.*)", "$1 and $2 exclude each other; leave one of them out;"},
-    {"(.*) requires (.*)", "$1 needs $2;"},
-    {"(.*): 1 required (.*) missing", "$1 needs a value, $2;"},
-    {"(.*): At Most 1 required but received (.*)", "$1 was given $2 times; expected it once;"},
-    {"(.*): At least (.*) required but received (.*)", "$1 needs $2 values, and got $3;"},
-    {"Could not convert: (.*) = (.*)", "$1: $2 is no number;"},
+constexpr std::array<Wording, 8> wordings = {{
+    {{"Could not convert: ", " = "}, "{0}: {1} is no number;"},
+    {{"", ": Value ", " not in range ", " to "}, "{0}: {1} is wrong; expected a number from {2} to {3};"},
+    {{"", " excludes "}, "{0} and {1} exclude each other; leave one of them out;"},
+    {{"", " requires "}, "{0} needs {1};"},
+    {{"", ": 1 required ", " missing"}, "{0} needs a value, {1};"},
+    {{"", ": ", " required ", " missing"}, "{0} needs {1} values, {2};"},
+    {{"", ": At Most 1 required but received "}, "{0} was given {1} times; expected it once;"},
+    {{"", ": At least ", " required but received "}, "{0} needs {1} values, and got {2};"},
 }};
 
-std::string reworded(const std::string& said) {
-  for (const auto& [theirs, ours] : wordings) {
-    std::smatch parts;
-    if (std::regex_match(said, parts, std::regex(theirs))) return parts.format(ours);
+/// The parts of what is said, without checks behind the name of a type ("N:INT in [0 - 9]"); nothing if it is not so.
+std::optional<std::array<std::string, 4>> parts_of(const std::string& said, const Wording& wording) {
+  if (!said.starts_with(wording.between[0])) return std::nullopt;
+  std::array<std::string, 4> parts;
+  std::size_t at = wording.between[0].size();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string_view next = i + 1 < wording.between.size() ? wording.between[i + 1] : "";
+    const std::size_t end = next.empty() ? said.size() : said.find(next, at);
+    if (end == std::string::npos) return std::nullopt;
+    parts[i] = quoted_word(said.substr(at, end - at));
+    if (const std::size_t check = parts[i].find(":{"); check != std::string::npos) parts[i].resize(check);
+    if (next.empty()) break;
+    at = end + next.size();
   }
-  return said + ";";
+  return parts;
+}
+
+std::string reworded(const std::string& said) {
+  for (const Wording& wording : wordings) {
+    const auto parts = parts_of(said, wording);
+    if (parts) return fmt::format(fmt::runtime(wording.ours), (*parts)[0], (*parts)[1], (*parts)[2], (*parts)[3]);
+  }
+  constexpr std::size_t most = 300;
+  return said.substr(0, most) + ";";
 }
 
 std::string missing(const CLI::App& app, const std::string& said) {
@@ -187,6 +216,8 @@ std::string on_one(std::string text) {
 
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& known) {
   const std::size_t most = std::max<std::size_t>(word.size() < 4 ? 1 : 2, word.size() / 3);
+  constexpr std::size_t longest = 60;  // nobody mistypes a longer one
+  if (word.size() > longest) return std::nullopt;
   std::optional<std::string> best;
   std::size_t least = most + 1;
   for (const std::string& name : known) {
@@ -214,7 +245,7 @@ CLI::App& named_command(CLI::App& app, std::vector<std::string> arguments, std::
 }
 
 std::string unknown_command(const CLI::App& app, const std::string& word) {
-  const std::string what = fmt::format("`{}` has no command {}", full_name(app), word);
+  const std::string what = fmt::format("`{}` has no command {}", full_name(app), quoted_word(word));
   if (const auto meant = nearest(word, commands_below(app))) {
     return fmt::format("{}; did you mean {}? {}", what, *meant, more_help(app));
   }
@@ -229,7 +260,8 @@ namespace {
 /// "noli -q verify": options stand behind the command.
 std::optional<std::string> option_before_command(const CLI::App& app, const CLI::App& command,
                                                  const std::vector<std::string>& arguments) {
-  const bool before = &app != &command && is_option(arguments.front()) && !known_option(app, arguments.front());
+  const bool before = &app != &command && is_option(arguments.front()) && !known_option(app, arguments.front()) &&
+                      known_option(command, arguments.front());
   if (!before) return std::nullopt;
   return fmt::format("{} stands before the command; expected it behind: {} {}", arguments.front(), full_name(command),
                      arguments.front());

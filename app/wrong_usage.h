@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What to say of a command line that cannot be: what is wrong, and the command, option or value that was meant.
+// Explains a wrong command line: what is wrong, and the command, option or value that was meant.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,13 +10,13 @@
 
 namespace noli::app {
 
-/// The one that a person meant who wrote `word`: it begins so, or two letters or a third of them are otherwise.
+/// The known word closest to `word`: one that begins with it, or at most max(2, length / 3) edits away.
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// The command below `app` that the command line names, as far as it is known; `rest`: what stands behind its name.
 CLI::App& named_command(CLI::App& app, std::vector<std::string> arguments, std::vector<std::string>& rest);
 
-/// For a word that is none of the commands below `app`.
+/// `word` is no command below `app`.
 std::string unknown_command(const CLI::App& app, const std::string& word);
 
 /// One line without a full stop. Nothing if a command with subcommands was named alone: then its help says it all.

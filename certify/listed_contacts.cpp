@@ -117,25 +117,28 @@ std::vector<std::size_t> fair_shares(std::span<const std::size_t> counts, std::s
 }
 
 void ContactList::add(std::size_t step, const std::optional<ListedContact>& first,
-                      std::span<const FeatureContact> contacts, const Exactly& exactly) {
+                      std::span<const FeatureContact> contacts, const Exactly& exactly,
+                      const std::function<bool()>& stopped) {
   std::vector<FeatureContact> others(contacts.begin(), contacts.end());
   if (first) std::erase(others, first->contact);
   const std::size_t count = others.size() + (first ? 1 : 0);
   if (count == 0 || counts_.size() >= most_) return;  // then each step has its one already
   counts_.push_back(count);
-  cut_to_shares();
-  const std::size_t share = fair_shares(counts_, most_).back();
+  const std::vector<std::size_t> shares = fair_shares(counts_, most_);
+  cut_to(shares);
+  const std::size_t share = shares.back();
   std::vector<ListedContact> listed;
   if (first && share > 0) listed.push_back(*first);
+  constexpr std::size_t between_looks = 256;
   for (std::size_t i = 0; listed.size() < share; ++i) {
+    if (i % between_looks == between_looks - 1 && stopped()) break;
     listed.push_back(exactly(others[i]));
     listed.back().step = step;
   }
   steps_.push_back(std::move(listed));
 }
 
-void ContactList::cut_to_shares() {
-  const std::vector<std::size_t> shares = fair_shares(counts_, most_);
+void ContactList::cut_to(std::span<const std::size_t> shares) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     if (steps_[i].size() > shares[i]) steps_[i].resize(shares[i]);
   }

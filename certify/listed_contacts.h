@@ -42,13 +42,14 @@ class ContactList {
 
   explicit ContactList(std::size_t most) : most_(most) {}
 
-  /// The contacts of the next step. `first`: the one that is listed first, or nothing.
+  /// The contacts of the next step. `first`: the one that is listed first, or nothing. `stopped`: no more is listed
+  /// once it says so.
   void add(std::size_t step, const std::optional<ListedContact>& first, std::span<const FeatureContact> contacts,
-           const Exactly& exactly);
+           const Exactly& exactly, const std::function<bool()>& stopped);
   std::vector<ListedContact> take();
 
  private:
-  void cut_to_shares();
+  void cut_to(std::span<const std::size_t> shares);
 
   std::size_t most_;
   std::vector<std::size_t> counts_;                ///< of the steps that have any: how many could be listed

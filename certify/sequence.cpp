@@ -48,7 +48,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   ++steps_;
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
   const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
-  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, result);
+  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   return result;
 }
@@ -67,12 +67,20 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
 
 /// What meets where a later step begins met where the step before ended, and was counted there. Those pairs are the
 /// ones that meet when everything rests where the step begins. Whether there are any.
-bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result) {
+bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                                              StepResult& result) {
   VerifyOptions options = step_options();
   options.first_only = false;
   options.max_reports = 0;
   const VerifyResult resting = verify_between(x_t0, x_t0, options);
+  if (resting.contact_count() > 0 && result.reports.size() == options_.max_reports) {
+    VerifyOptions more = step_options();  // those that go on have taken the room of others
+    more.max_reports += resting.contact_count();
+    VerifyResult again = verify_between(x_t0, x_t1, more);
+    if (again.complete) result.reports = std::move(again.reports);
+  }
   drop_met_before(result, resting, options_.dimension, x_t0);
+  if (result.reports.size() > options_.max_reports) result.reports.resize(options_.max_reports);
   return resting.contact_count() > 0;
 }
 

@@ -47,7 +47,7 @@ void Verification::add(const Findings& found, std::optional<ListedContact> first
   if (first) first->step = step;
   if (!outcome_.first) outcome_.first = first;
   if (goes_on) first.reset();  // it may be one of those that go on
-  listed_.add(step, first, found.reports, exactly);
+  listed_.add(step, first, found.reports, exactly, [this] { return stopped(); });
   outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on, std::move(first)});
   for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += found.contacts[i];
   outcome_.initial_intersections += found.initial_intersections;

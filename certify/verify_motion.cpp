@@ -283,7 +283,15 @@ class RunVerification : private Verification {
     resting.first_only = false;
     resting.max_reports = 0;
     const WindowResult met = verifier_->verify(WorldLines::from_frames(x, x), resting);
+    const std::size_t most = options().max_reports;
+    if (met.contact_count() > 0 && result.reports.size() == most) {
+      WindowOptions more = options();  // those that go on have taken the room of others
+      more.max_reports += met.contact_count();
+      WindowResult again = verifier_->verify(*window.lines, more);
+      if (again.complete) result.reports = std::move(again.reports);
+    }
     drop_met_before(result, met, outcome_.dimension, x);
+    if (result.reports.size() > most) result.reports.resize(most);
     return met.contact_count() > 0;
   }
 

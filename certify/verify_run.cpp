@@ -265,7 +265,8 @@ class SequenceVerification : private Verification {
     outcome_.notes = request_.order_notes;
     append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
     for (const std::string& note : inputs_.notes()) outcome_.notes.push_back(note);
-    const bool contact = outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
+    const bool contact =
+        outcome_.initial_reports.empty() && outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
     const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
     if (contact || near) {
       outcome_.notes.emplace_back(

@@ -25,9 +25,10 @@ def commands_in(text):
 
 
 def options_in(text):
-    """(short name or None, name, value or None, description)"""
+    """(short name or None, name, value or None, description), of the groups of options: details below them may look alike"""
     found = []
-    lines = text.split("\n")
+    groups = re.findall(r"^(?!Examples|Commands|Arguments)[A-Z][\w ]*:\n((?:  .*\n)+)", text[text.find("\nOptions:"):], re.M)
+    lines = "".join(groups).split("\n")
     for line, after in zip(lines, lines[1:] + [""]):
         match = OPTION.match(line)
         if match:
@@ -77,14 +78,14 @@ _noli() {{
   case "$words" in
 {chr(10).join(cases)}
   esac
-  COMPREPLY=($(compgen -W "$known" -- "$now") $(compgen -f -- "$now"))
+  mapfile -t COMPREPLY < <(compgen -W "$known" -- "$now"; compgen -f -- "$now")
 }}
 complete -o filenames -F _noli noli
 """
 
 
 def quoted(text):
-    return text.replace("'", "").replace("[", "(").replace("]", ")").replace(":", ";")
+    return text.replace("'", "’").replace("[", "(").replace("]", ")").replace(":", ";")
 
 
 def zsh(tree):

@@ -7,6 +7,7 @@
 #include <noli/errors.h>
 #include "certify/contact_report.h"
 #include "certify/not_compared.h"
+#include "certify/process/run_program.h"
 #include "certify/process/this_program.h"
 #include "certify/simulate/energy_watch.h"
 #include "certify/simulate/phase_clock.h"
@@ -185,9 +186,12 @@ std::string place(const SimulateOutcome& outcome) {
 
 /// What a user does now.
 std::string next_step(const SimulateRequest& request, const SimulateOutcome& outcome) {
-  const std::string scene = on_one_line(request.scene.string()), run = on_one_line(request.run.string());
+  std::string path = request.run.string();
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  const std::string scene = shell_words({request.scene.string()}), run = shell_words({path}),
+                    page = shell_words({path + ".html"});
   switch (outcome.end) {
-    case RunEnd::contact: return fmt::format("noli report {0} -o {0}.html shows the motion up to there.", run);
+    case RunEnd::contact: return fmt::format("noli report {} -o {} shows the motion up to there.", run, page);
     case RunEnd::unstable:
     case RunEnd::not_finite: return fmt::format("noli explain {} tells which steps are too long.", scene);
     case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
@@ -199,9 +203,8 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
                          : request.force ? " --force"
                                          : "");
     case RunEnd::done:
-      return outcome.windows > 0
-                 ? fmt::format("noli report {0} -o {0}.html shows the run; noli explain {0} tells how it went.", run)
-                 : "";
+      if (outcome.windows == 0) return "";
+      return fmt::format("noli report {} -o {} shows the run; noli explain {} tells how it went.", run, page, run);
   }
   return "";
 }

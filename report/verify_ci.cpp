@@ -8,7 +8,7 @@
 
 #include <noli/errors.h>
 #include "certify/contact_report.h"
-#include "report/verify_words.h"
+#include "report/verify_place.h"
 #include "trajectory/text.h"
 
 namespace noli::report {
@@ -16,28 +16,31 @@ namespace {
 
 constexpr std::size_t most_annotations = 10;  ///< GitHub shows no more of a step
 
-/// What is wrong with a step; nothing: nothing touches in it.
+/// Whether step k, from 0, was decided to its end.
+bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
+  return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
+}
+
+/// What is wrong with a step that was begun; nothing: nothing touches in it.
 std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
   const StepCounts& step = outcome.steps[k];
-  if (outcome.near && outcome.near->step == k + 1) {
+  if (outcome.verdict == Verdict::too_near && outcome.near->step == k + 1) {
     return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
                        outcome.near->pair.second_cell, digits17(request.min_distance));
   }
   if (!step.touches()) return "";
+  const bool whole = is_decided(outcome, k) && !request.first_only;
   std::string text;
-  if (step.contact_count() > 0) text = fmt::format("{} pairs of features meet", step.contact_count());
-  if (step.initial_intersections > 0) {
-    text += fmt::format("{}{} pairs of cells intersect at the first time", text.empty() ? "" : ", ",
-                        step.initial_intersections);
+  if (step.contact_count() > 0) {
+    text = fmt::format("{}{} of features meet", whole ? "" : "at least ", plural(step.contact_count(), "pair"));
   }
-  if (!step.first) return text;
+  if (step.initial_intersections > 0) {
+    text += fmt::format("{}{} of cells intersect where the step begins", text.empty() ? "" : ", ",
+                        plural(step.initial_intersections, "pair"));
+  }
+  if (!step.first || !whole) return text;
   return fmt::format("{}; the first at t = {}{}: {}", text, digits17(step.first->time), request.run ? " s" : "",
                      who_and_where(*step.first, outcome.dimension));
-}
-
-/// Whether step k, from 0, was decided to its end.
-bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
-  return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
 }
 
 std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
@@ -49,9 +52,13 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
                        name(outcome.verdict), escaped_markup(fault));
   }
   if (is_decided(outcome, k)) return head + "/>\n";
-  const std::string why = outcome.touches() && outcome.complete
-                              ? "not looked at: verification stopped at an earlier contact (--keep-going)"
-                              : fmt::format("undecided: {}", why_incomplete(outcome));
+  std::string why = "not looked at: verification stopped at an earlier contact (--keep-going)";
+  if (k < outcome.steps.size()) why = fmt::format("undecided: {}", why_incomplete(outcome));
+  if (k >= outcome.steps.size() && outcome.verdict == Verdict::too_near) {
+    why = "not looked at: verification stopped where something came too near";
+  } else if (k >= outcome.steps.size() && !outcome.touches()) {
+    why = fmt::format("not looked at: {}", why_incomplete(outcome));
+  }
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
 
@@ -102,13 +109,8 @@ std::string verify_annotations(const VerifyRequest& request, const VerifyOutcome
   }
   if (left_out > 0) lines += annotation("warning", "noli", fmt::format("{} more steps have contacts", left_out));
   if (written > 0) return lines;
-  if (outcome.verdict == Verdict::undecided) {
-    return annotation(
-        "error", "noli: undecided",
-        fmt::format("{} of {} steps begun: {}", outcome.steps.size(), outcome.steps_total, why_incomplete(outcome)));
-  }
-  return annotation("notice", "noli: " + std::string(name(outcome.verdict)),
-                    fmt::format("{} steps: nothing touches", outcome.steps_total));
+  const char* const level = outcome.verdict == Verdict::undecided ? "error" : "notice";
+  return annotation(level, "noli: " + std::string(name(outcome.verdict)), place_of(request, outcome));
 }
 
 }  // namespace noli::report

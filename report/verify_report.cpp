@@ -140,10 +140,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return json;
 }
 
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome) {
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result) {
   Answer answer(name(outcome.verdict));
   add_pairs(outcome, answer);
-  put_words(request, outcome, answer);
+  put_words(request, outcome, result, answer);
   return answer;
 }
 

@@ -3,6 +3,8 @@
 // The words of `noli verify`: its JSON, and its answer for people and machines.
 #pragma once
 
+#include <string>
+
 #include <noli/verify.h>
 #include "certify/json.h"
 #include "report/answer.h"
@@ -15,7 +17,8 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 
 /// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step,
 /// a time and two features.
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome);
+/// `result`: the file to which the JSON goes, for the advice on what to do next; or nothing.
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result = "");
 
 /// How many pairs each stage decided, and obligations and pairs of cells.
 Json work_json(const VerifyOutcome& outcome);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "certify/not_compared.h"
+#include "report/input_report.h"
 
 namespace noli::report {
 namespace {

@@ -17,6 +17,7 @@
 #include "certify/process/this_program.h"
 #include "certify/proofs/claim.h"
 #include "report/input_report.h"
+#include "report/verify_place.h"
 #include "report/verify_report.h"
 #include "report/verify_statement.h"
 
@@ -39,110 +40,10 @@ std::string why_ended(const RunEnding& ending) {
   return on_one_line(*ending.why);
 }
 
-const char* step_word(const VerifyRequest& request) {
-  if (request.run) return "window";
-  return request.constant_motion ? "frame" : "step";
-}
-
-const char* steps_word(const VerifyRequest& request, std::size_t count) {
-  if (request.run) return count == 1 ? "window" : "windows";
-  if (request.constant_motion) return count == 1 ? "frame at rest" : "frames at rest";
-  return count == 1 ? "step" : "steps";
-}
-
-std::string plural(std::uint64_t count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-/// "c.ply → d.ply", "c.ply" for a frame at rest, nothing for a window.
-std::string step_frames(const VerifyRequest& request, std::size_t number) {
-  if (request.run) return "";
-  const auto name = [&](std::size_t frame) { return on_one_line(request.frames[frame].filename().string()); };
-  return request.constant_motion ? name(number - 1) : fmt::format("{} → {}", name(number - 1), name(number));
-}
-
-/// What stands behind the verdict, in the last line.
-class Place {
- public:
-  Place(const VerifyRequest& request, const VerifyOutcome& outcome) : request_(request), outcome_(outcome) {}
-
-  std::string operator()() const {
-    switch (outcome_.verdict) {
-      case Verdict::proved: return fmt::format("{}: {} ({})", looked_at(), untouched(), by_checker());
-      case Verdict::no_contact: return fmt::format("{}: {} (decided exactly, not checked)", looked_at(), untouched());
-      case Verdict::contact: return contact();
-      case Verdict::too_near: return near();
-      case Verdict::undecided:
-        return fmt::format("{} of {} {} begun: nothing found so far ({})", outcome_.steps.size(), outcome_.steps_total,
-                           steps_word(request_, outcome_.steps_total), why_incomplete(outcome_));
-    }
-    return "";
-  }
-
- private:
-  std::string looked_at() const {
-    std::string steps = fmt::format("{} {}", outcome_.steps_total, steps_word(request_, outcome_.steps_total));
-    if (request_.constant_motion) return steps;
-    if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
-    const RunEnding& ending = *outcome_.ending;
-    if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, digits4(ending.time));
-    const std::string of = ending.windows_total
-                               ? fmt::format("{} of {}{} windows", outcome_.steps_total,
-                                             ending.some_ended_early ? "at least " : "", *ending.windows_total)
-                               : steps;
-    return fmt::format("{}, {} of {} s", of, digits4(ending.time), *ending.duration);
-  }
-
-  std::string untouched() const {
-    std::string text = nothing_touches_in_short(outcome_.not_compared);
-    if (request_.min_distance > 0) {
-      const std::string which =
-          request_.ring > 1 ? fmt::format("what is {} mesh edges or more away", request_.ring) : "all";
-      text += fmt::format(", and {} is more than {} apart", which, digits17(request_.min_distance));
-    }
-    for (const std::string& phrase : weakenings(outcome_.claim)) text += "; " + phrase;
-    return text;
-  }
-
-  std::string by_checker() const {
-    return outcome_.checker ? fmt::format("accepted by {} {}", outcome_.checker->name, outcome_.checker->version)
-                            : "accepted by the checker";
-  }
-
-  std::string contact() const {
-    if (outcome_.first) {
-      const ListedContact& first = *outcome_.first;
-      return fmt::format("{}  t = {}{}  {}{}", step_name(request_, first.step), digits4(first.time),
-                         request_.run ? " s" : "", who_and_where(first, outcome_.dimension), rests_on());
-    }
-    if (outcome_.initial_reports.empty()) return "from the beginning" + rests_on();
-    const auto& [number, pair] = outcome_.initial_reports.front();
-    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step_name(request_, number), pair.first_cell,
-                       pair.second_cell, rests_on());
-  }
-
-  /// What the checker's witness rests on that is not asked by default: "; z does not count".
-  std::string rests_on() const {
-    const std::size_t at = outcome_.checked ? outcome_.checked->find("; ") : std::string::npos;
-    return at == std::string::npos ? "" : outcome_.checked->substr(at);
-  }
-
-  std::string near() const {
-    const TooNear& pair = outcome_.near->pair;
-    const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
-    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}",
-                       step_name(request_, outcome_.near->step), digits4(pair.time), pair.first_cell, pair.second_cell,
-                       digits17(request_.min_distance), ring);
-  }
-
-  const VerifyRequest& request_;
-  const VerifyOutcome& outcome_;
-};
-
 class Words {
  public:
-  Words(const VerifyRequest& request, const VerifyOutcome& outcome, Answer& answer)
-      : request_(request), outcome_(outcome), answer_(answer) {}
+  Words(const VerifyRequest& request, const VerifyOutcome& outcome, std::string result, Answer& answer)
+      : request_(request), outcome_(outcome), result_(std::move(result)), answer_(answer) {}
 
   void operator()() {
     contacts();
@@ -154,7 +55,7 @@ class Words {
     answer_.text += notes_text(outcome_.notes);
     statement();
     work();
-    answer_.place = Place(request_, outcome_)();
+    answer_.place = place_of(request_, outcome_);
     answer_.next = next();
   }
 
@@ -170,8 +71,8 @@ class Words {
 
   void contacts() {
     if (outcome_.contact_count() == 0) return;
-    line("Contacts: {} pairs of features, in {} of {} {} looked at:", outcome_.contact_count(), touching_steps(),
-         outcome_.steps.size(), steps_word(request_, outcome_.steps.size()));
+    line("Contacts: {} of features, in {} of {} {} looked at:", plural(outcome_.contact_count(), "pair"),
+         touching_steps(), outcome_.steps.size(), steps_word(request_, outcome_.steps.size()));
     table();
     for (const ListedContact& listed : outcome_.reports) {
       detail("  {} {}  t = {}  {}  {}", step_word(request_), listed.step, digits17(listed.time), name(listed.kind),
@@ -204,7 +105,7 @@ class Words {
   }
 
   std::string how_it_begins(const StepCounts& step) const {
-    if (!step.first) return step.goes_on ? "beside those that go on from before" : "";
+    if (!step.first) return step.goes_on ? "in addition to contacts that go on" : "";
     return fmt::format("t = {}{}  {}, {}", digits4(step.first->time), request_.run ? " s" : "",
                        pair_in_short(*step.first), name(step.first->kind));
   }
@@ -215,14 +116,15 @@ class Words {
   }
 
   std::size_t touching_steps() const {
-    return static_cast<std::size_t>(std::ranges::count_if(outcome_.steps, &StepCounts::touches));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(outcome_.steps, [](const StepCounts& step) { return step.contact_count() > 0; }));
   }
 
   void initial_intersections() {
     if (outcome_.initial_intersections == 0) return;
-    line("{} of cells {} already at the {}:", plural(outcome_.initial_intersections, "pair"),
+    line("{} of cells {} {}:", plural(outcome_.initial_intersections, "pair"),
          outcome_.initial_intersections == 1 ? "intersects" : "intersect",
-         request_.constant_motion ? "time of their frame" : "first time");
+         request_.constant_motion ? "in its frame" : "before anything moves");
     const std::size_t shown = std::min(most_intersections, outcome_.initial_reports.size());
     for (std::size_t i = 0; i < outcome_.initial_reports.size(); ++i) {
       const auto& [step, pair] = outcome_.initial_reports[i];
@@ -336,8 +238,9 @@ class Words {
   std::string after_contact() const {
     const bool more = !request_.keep_going && outcome_.steps.size() < outcome_.steps_total;
     const std::string steps = more ? "; --keep-going counts the contacts of all steps" : "";
-    return "--json result.json keeps the result, and noli export result.json -o first.png is a picture of it" + steps +
-           ".";
+    const std::string result = result_.empty() ? "result.json" : shell_words({result_});
+    return fmt::format("{}noli export {} -o first.png is a picture of it{}.",
+                       result_.empty() ? "--json result.json keeps the result, and " : "", result, steps);
   }
 
   std::string after_stop() const {
@@ -379,26 +282,14 @@ class Words {
 
   const VerifyRequest& request_;
   const VerifyOutcome& outcome_;
+  std::string result_;  ///< the file that the result is written to, or nothing
   Answer& answer_;
 };
 
 }  // namespace
 
-const char* why_incomplete(const VerifyOutcome& outcome) {
-  if (outcome.no_proof) return "no proof was found";
-  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
-  if (outcome.interrupted) return "interrupted";
-  if (outcome.steps_total == 0) return "no window was committed";
-  return outcome.out_of_time ? "time limit" : "first contact only";
-}
-
-std::string step_name(const VerifyRequest& request, std::size_t number) {
-  const std::string frames = step_frames(request, number);
-  return fmt::format("{} {}{}", step_word(request), number, frames.empty() ? "" : " (" + frames + ")");
-}
-
-void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, Answer& answer) {
-  Words(request, outcome, answer)();
+void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result, Answer& answer) {
+  Words(request, outcome, result, answer)();
 }
 
 }  // namespace noli::report

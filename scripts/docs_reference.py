@@ -21,8 +21,8 @@ def help_of(noli, words):
 
 
 def subcommands(text):
-    """The names below the line "Subcommands:"."""
-    block = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.MULTILINE)
+    """The names below the line "Commands:"."""
+    block = re.search(r"^Commands:\n((?:  .*\n)+)", text, re.MULTILINE)
     return re.findall(r"^  ([a-z][a-z-]*) ", block.group(1), re.MULTILINE) if block else []
 
 
@@ -33,6 +33,13 @@ def commands(noli, words=()):
     for name in subcommands(text):
         parts += commands(noli, (*words, name))
     return parts
+
+
+def all_commands(noli):
+    parts = commands(noli)
+    if len(parts) < 10:  # the help has another form
+        sys.exit(f"docs_reference.py: {noli} --help names {len(parts) - 1} commands; expected a list below \"Commands:\"")
+    return "\n".join(parts)
 
 
 def cell(text):
@@ -161,7 +168,7 @@ def main():
     noli, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in {
-        "commands": "\n".join(commands(noli)),
+        "commands": all_commands(noli),
         "scene": scene(),
         "results": results(),
         "cpp": cpp(),

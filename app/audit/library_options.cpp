@@ -26,13 +26,6 @@ void add_library_options(CLI::App& command, LibraryArguments& arguments, const s
       ->needs(path);
   command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
       ->needs(path);
-  command
-      .add_option("--late-tolerance", library.late_tolerance,
-                  "Times that are late by at most this part of the step are no findings")
-      ->check(is_not_negative())
-      ->capture_default_str()
-      ->type_name("T")
-      ->needs(path);
   command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
   add_sandbox_option(command, library.host.sandbox)->needs(path);
   command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")

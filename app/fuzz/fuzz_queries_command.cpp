@@ -282,6 +282,13 @@ Command add_fuzz_queries(CLI::App& fuzz) {
       ->capture_default_str()
       ->type_name("N");
   add_library_options(*command, *arguments, "the kernel");
+  command
+      ->add_option("--late-tolerance", arguments->asked.late_tolerance,
+                   "Times that are late by at most this part of the step are no findings")
+      ->check(is_not_negative())
+      ->capture_default_str()
+      ->type_name("T")
+      ->needs(command->get_option("--library"));
   CLI::Option* const out = command->get_option("--out");
   CLI::Option* const again =
       command->add_option("--replay", arguments->replay, "Decide the queries of these files again instead")

@@ -5,7 +5,7 @@
 //
 // Faults, of a query whose features meet first at t*
 //   false_negative   "no hit", but they meet
-//   late             a time after t*, by however little, or by more than `late_tolerance`
+//   late             a time after t*, by more than `late_tolerance`
 //   bad_time         one outside [0, 1]
 //   no_time          none (NaN), though the library knows times (`knows_times`)
 //   failure          an answer but "hit" and "no hit"

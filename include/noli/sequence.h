@@ -94,7 +94,7 @@ class SequenceVerifier {
  private:
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
-  bool drop_contacts_at_begin(std::span<const Position> x_t0, StepResult& result);
+  bool drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, StepResult& result);
 
   Mesh mesh_;
   SequenceOptions options_;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "report/figures/run_frame.h"
 #include "report/report_inputs.h"
 #include "report/report_results.h"
+#include "trajectory/cells.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/write_vtu.h"
 #include "trajectory/sample.h"
@@ -32,9 +35,17 @@ constexpr double around = 4;
 struct Contact {
   std::size_t step = 0;  ///< from 1
   double time = 0;
-  Position point{};
-  std::array<std::vector<std::uint32_t>, 2> cells;
+  std::optional<Position> point;  ///< nothing: the middle of what meets
+  /// Vertices of each feature, or of each of two cells that intersect where the step begins.
+  std::array<std::vector<VertexId>, 2> vertices;
 };
+
+std::vector<VertexId> corners_of(const Mesh& mesh, std::uint32_t cell) {
+  if (cell < mesh.faces.size()) return {mesh.faces[cell].begin(), mesh.faces[cell].end()};
+  const std::size_t edge = cell - mesh.faces.size();
+  if (edge < mesh.edges.size()) return {mesh.edges[edge].begin(), mesh.edges[edge].end()};
+  return {mesh.points[edge - mesh.edges.size()]};
+}
 
 class ContactOf {
  public:
@@ -50,31 +61,55 @@ class ContactOf {
 
   const Contact& contact() const { return contact_; }
 
-  /// Where everything is at the time of contact.
-  Frame frame() const {
+  /// Where everything is at the time of contact, and the vertices of cells that intersect.
+  Frame frame() {
     const ResultInputs about(result_, path_);
-    return verified_steps(result_, path_).run ? frame_of_run(about) : frame_between(about);
+    Frame frame = verified_steps(result_, path_).run ? frame_of_run(about) : frame_between(about);
+    if (result_.at("statement").at("points").get<bool>()) {
+      const auto particles = unreferenced_vertices(frame.mesh);
+      frame.mesh.points.insert(frame.mesh.points.end(), particles.begin(), particles.end());
+    }
+    if (!intersecting_) return frame;
+    if (merged()) refuse("counts cells of a mesh with merged vertices; verify without --merge-identical");
+    for (std::size_t side = 0; side < 2; ++side) {
+      if ((*intersecting_)[side] >= frame.mesh.cell_count()) refuse("names a cell that the frames do not have");
+      contact_.vertices[side] = corners_of(frame.mesh, (*intersecting_)[side]);
+    }
+    return frame;
   }
+
+  /// Whether vertices of the result stand for others at the same place.
+  bool merged() const { return result_.at("statement").at("merged_vertices").get<std::uint64_t>() > 0; }
 
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
 
+  /// The contact that is asked for; null: the first cells that intersect.
   const Json& chosen(std::size_t number) const {
     const Json& listed = result_.at("reports").at("contacts");
     if (number > listed.size()) {
       refuse(fmt::format("lists {} contacts; expected a number up to that, found --contact {}", listed.size(), number));
     }
     if (number > 0) return listed.at(number - 1);
-    if (result_.at("first").is_null()) refuse("has no contact; expected a result with the verdict contact");
+    const Json& intersections = result_.at("initial_reports").at("intersections");
+    if (result_.at("first").is_null() && intersections.empty()) {
+      refuse("lists no contact; expected a result with the verdict contact");
+    }
     return result_.at("first");
   }
 
-  Contact parsed(const Json& json) const {
+  Contact parsed(const Json& json) {
+    if (json.is_null()) return intersection(result_.at("initial_reports").at("intersections").at(0));
     if (!json.contains("point")) refuse("was written by an older noli, which lists no points; verify again");
-    Contact contact{json.at("step").get<std::size_t>(), json.at("time").get<double>(), {}, {}};
+    Contact contact{json.at("step").get<std::size_t>(), json.at("time").get<double>(), std::nullopt, {}};
     contact.point = json.at("point").get<Position>();
-    contact.cells = json.at("cells").get<std::array<std::vector<std::uint32_t>, 2>>();
+    contact.vertices = json.at("features").get<std::array<std::vector<VertexId>, 2>>();
     return contact;
+  }
+
+  Contact intersection(const Json& json) {
+    intersecting_ = json.at("cells").get<std::array<std::uint32_t, 2>>();
+    return {json.at("step").get<std::size_t>(), 0, std::nullopt, {}};
   }
 
   std::filesystem::path file(std::size_t k) const {
@@ -117,24 +152,39 @@ class ContactOf {
   const std::filesystem::path& path_;
   Json result_;
   Contact contact_;
+  std::optional<std::array<std::uint32_t, 2>> intersecting_;  ///< two cells, where no pair of features is chosen
 };
 
-std::vector<VertexId> corners_of(const Mesh& mesh, std::uint32_t cell) {
-  if (cell < mesh.faces.size()) return {mesh.faces[cell].begin(), mesh.faces[cell].end()};
-  const std::size_t edge = cell - mesh.faces.size();
-  if (edge < mesh.edges.size()) return {mesh.edges[edge].begin(), mesh.edges[edge].end()};
-  return {mesh.points[edge - mesh.edges.size()]};
-}
-
-/// Those of both features; a cell of both counts to the first.
-std::vector<Mark> marks_of(const Contact& contact, const Mesh& mesh) {
+/// Cells that have all vertices of a feature. With merged vertices one at the same place will do.
+std::vector<Mark> marks_of(const Contact& contact, const Frame& frame, bool merged) {
+  const auto is_at = [&](VertexId v, VertexId corner) {
+    return v == corner || (merged && frame.positions[v] == frame.positions[corner]);
+  };
   std::vector<Mark> marks;
-  for (int side = 0; side < 2; ++side) {
-    for (const std::uint32_t cell : contact.cells[static_cast<std::size_t>(side)]) {
-      if (cell < mesh.cell_count()) marks.push_back({cell, side});
+  for (std::uint32_t cell = 0; cell < frame.mesh.cell_count(); ++cell) {
+    const std::vector<VertexId> corners = corners_of(frame.mesh, cell);
+    for (int side = 0; side < 2; ++side) {
+      const auto has = [&](VertexId v) {
+        return std::ranges::any_of(corners, [&](VertexId c) { return is_at(v, c); });
+      };
+      if (std::ranges::all_of(contact.vertices[static_cast<std::size_t>(side)], has)) marks.push_back({cell, side});
     }
   }
   return marks;
+}
+
+/// Where they meet; of cells that intersect, the middle of their corners.
+Position point_of(const Contact& contact, const Frame& frame) {
+  if (contact.point) return *contact.point;
+  Position sum{};
+  double count = 0;
+  for (const auto& vertices : contact.vertices) {
+    for (const VertexId v : vertices) {
+      for (std::size_t d = 0; d < 3; ++d) sum[d] += frame.positions[v][d];
+      ++count;
+    }
+  }
+  return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
 double radius_around(const Frame& frame, const std::vector<Mark>& marks) {
@@ -165,7 +215,7 @@ void paint(const ContactExportRequest& request, const Contact& contact, const Fr
            const std::vector<Mark>& marks) {
   View view = view_from(request.view, in_plane(frame) ? 2 : 3);
   if (view.height == 0) view.height = view.width * 3 / 4;
-  view.focus = Focus{contact.point, radius_around(frame, marks)};
+  view.focus = Focus{point_of(contact, frame), radius_around(frame, marks)};
   view.marks = marks;
   try {
     replace_file(request.output, png(draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view)));
@@ -187,10 +237,16 @@ void check(const ContactExportRequest& request, bool picture) {
 ContactExport export_contact(const ContactExportRequest& request) {
   const bool picture = request.output.extension() == ".png";
   check(request, picture);
-  const ContactOf result(request);
-  const Contact& contact = result.contact();
+  ContactOf result(request);
   const Frame frame = result.frame();
-  const std::vector<Mark> marks = marks_of(contact, frame.mesh);
+  const Contact& contact = result.contact();
+  for (const auto& vertices : contact.vertices) {
+    for (const VertexId v : vertices) {
+      if (v >= frame.mesh.vertex_count)
+        throw InputError(request.result.string(), "", "names a vertex that is not there");
+    }
+  }
+  const std::vector<Mark> marks = marks_of(contact, frame, result.merged());
   if (picture) {
     paint(request, contact, frame, marks);
   } else {

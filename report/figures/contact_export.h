@@ -19,7 +19,7 @@ namespace noli::report {
 
 struct ContactExportRequest {
   std::filesystem::path result;  ///< written by noli verify --json; the files that it names must be as they were
-  std::size_t number = 0;        ///< which of its listed contacts, from 1; 0: the first of all
+  std::size_t number = 0;        ///< which of its listed contacts, from 1; 0: the first, or else the first cells that intersect
   PictureView view;              ///< of a picture; `zoom` is not used
   std::filesystem::path output;  ///< ends in .vtu or .png
 };

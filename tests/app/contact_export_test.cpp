@@ -80,9 +80,46 @@ TEST_F(ContactExport, RefusesResultsWithoutContact) {
   const std::string path = folder.path("result.json");
   run_noli(
       {"verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(2)), "--json", path});
-  expect_refused(export_to("hits.vtu"), "has no contact");
+  expect_refused(export_to("hits.vtu"), "lists no contact");
   folder.write("result.json", "{}");
   expect_refused(export_to("hits.vtu"), "is no result of noli verify");
+}
+
+std::size_t marked(const Process& process) { return std::stoul(process.out.substr(process.out.rfind(' ') + 1)); }
+
+TEST_F(ContactExport, ShowsCellsThatIntersectWhereNoPairOfFeaturesMeets) {
+  const std::string path = folder.path("result.json");
+  run_noli({"verify", "--static", folder.write("pierced.ply", sail_through_deck()), "--json", path});
+  const Process process = export_to("hits.vtu");
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(marked(process), 2U);
+}
+
+/// A particle is a cell of its own.
+TEST_F(ContactExport, MarksParticles) {
+  const auto frame = [&](const std::string& name, const std::string& z) {
+    return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 " + z + "\nf 1 2 3\n");
+  };
+  run_noli({"verify", "--points", frame("p.obj", "1"), frame("q.obj", "-1"), "--json", folder.path("result.json")});
+  const Process process = export_to("hits.vtu");
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(marked(process), 2U);
+}
+
+/// Two faces that share an edge by place alone: with merged vertices both belong to it.
+TEST_F(ContactExport, MarksWhatMergedVerticesBelongTo) {
+  const auto frame = [&](const std::string& name, const std::string& z) {
+    return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv -1 -1 " + z + "\nv 2 2 " + z +
+                                  "\nv 3 0 5\nf 1 2 3\nf 4 6 5\nf 7 8 9\n");
+  };
+  run_noli(
+      {"verify", "--merge-identical", frame("p.obj", "1"), frame("q.obj", "-1"), "--json", folder.path("result.json")});
+  const auto json = nlohmann::json::parse(test::read_text(folder.path("result.json")));
+  std::size_t number = 0;
+  while (json["reports"]["contacts"].at(number)["features"][0] != nlohmann::json({1, 2})) ++number;
+  const Process process = export_to("hits.vtu", {"--contact", std::to_string(number + 1)});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(marked(process), 3U) << "both faces at the edge, and the one that comes down";
 }
 
 TEST_F(ContactExport, RefusesWhatIsForRuns) {

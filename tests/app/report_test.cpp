@@ -229,6 +229,9 @@ TEST_F(Report, RefusesAResultAboutOtherFiles) {
   write({result, frames[1], frames[0]}, 3, "pass --order natural");
   write({result, frames[1], frames[0], "--order", "given"}, 3, "frame 1 was ");
   write({result, frames[1], frames[0], "--order", "natural"});
+  const std::string natural = folder.path("natural.json");
+  ASSERT_EQ(run_noli({"verify", frames[1], frames[0], "--order", "natural", "--json", natural}).exit_code, 1);
+  write({natural, frames[1], frames[0]});  // the order was asked for once
   Json older = Json::parse(bytes_of(result));
   older.erase("inputs");
   write({folder.write("older.json", older.dump()), frames[0], frames[1]}, 3, "does not say what it is about");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
 #include <sys/stat.h>
+#include <filesystem>
 
 #include <fstream>
 #include <thread>
@@ -138,6 +141,44 @@ TEST_F(Verify, ListsNoMoreThanAskedButCountsAll) {
   EXPECT_EQ(json["reports"]["left_out"], 1);
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
   EXPECT_NE(run_noli(with(arguments, {"-v"})).out.find("... and 1 more (--max-reports)"), std::string::npos);
+}
+
+TEST_F(Verify, TellsWhoNamesAFolderHowToNameItsFrames) {
+  const std::string frames_folder = folder.path("frames");
+  std::filesystem::create_directory(frames_folder);
+  folder.write("frames/a.ply", two_triangles(1));
+  const Process process = run_noli({"verify", frames_folder});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("name them: noli verify " + frames_folder + "/*.ply"), std::string::npos) << process.err;
+}
+
+/// Contacts that go on from step 1 do not take the room of one that begins in step 2.
+TEST_F(Verify, ListsNewContactsBesideThoseThatGoOn) {
+  const auto frame = [&](const std::string& name, double resting, double falling) {
+    return folder.write(name,
+                        fmt::format("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 1 1 {0}\nv 2 1 {0}\nv 1 2 {0}\nv 3 3 {1}\nv 3 3 9\n"
+                                    "v 4 3 9\nf 1 2 3\nf 4 5 6\nf 7 8 9\n",
+                                    resting, falling));
+  };
+  const Json json = json_of({"verify", "--keep-going", "--max-reports", "2", frame("0.obj", 1, 2), frame("1.obj", 0, 1),
+                             frame("2.obj", 0, -1)},
+                            1);
+  EXPECT_EQ(json["per_step"][0]["goes_on"], false);
+  EXPECT_EQ(json["per_step"][0]["first_time"], 1.0);
+  EXPECT_EQ(json["per_step"][1]["goes_on"], true);
+  EXPECT_TRUE(json["per_step"][1]["first_time"].is_null());
+  EXPECT_EQ(json["per_step"][1]["contacts"]["vertex_face"], 1);
+  ASSERT_EQ(json["reports"]["contacts"].size(), 2U);
+  EXPECT_EQ(json["reports"]["contacts"][1]["step"], 2);
+  EXPECT_EQ(json["reports"]["contacts"][1]["features"], Json({{6}, {0, 1, 2}}));
+}
+
+TEST_F(Verify, SaysWhatIntersectsBeforeWhatMeetsLater) {
+  const auto begin = folder.write("begin.ply", sail_through_deck());
+  const Json json = json_of({"verify", begin, begin}, 1);
+  ASSERT_EQ(json["initial_intersections"], 1);
+  EXPECT_NE(run_noli({"verify", begin, begin}).verdict_line().find("from its beginning  cell 0 × cell 1"),
+            std::string::npos);
 }
 
 TEST_F(Verify, TakesASingleFrameAtRest) {

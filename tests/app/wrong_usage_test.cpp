@@ -60,6 +60,10 @@ constexpr WrongUsage wrong_usages[] = {
     {"first_olny", "verify --first-olny a b", "did you mean --first-only?"},
     {"tolerance", "verify --tolerance 1e-6 a b", "--min-distance DISTANCE"},
     {"epsilon", "verify --epsilon 1e-6 a b", "there is no tolerance"},
+    {"jobs_at_once", "verify -j4 a b", "--threads N"},
+    {"value_with_choices", "verify a b --order", "--order needs a value, natural|given;"},
+    {"report_tolerance", "report --tolerance 1 r.json -o r.html", "noli report --help"},
+    {"unknown_option_first", "-x verify a b", "has no option -x"},
     {"jobs", "verify --jobs 4 a b", "--threads N"},
     {"j", "verify -j 4 a b", "--threads N"},
     {"timeout", "verify --timeout 5s a b", "--time-limit TIME"},
@@ -116,6 +120,20 @@ constexpr WrongUsage wrong_usages[] = {
 
 INSTANTIATE_TEST_SUITE_P(All, WrongUsages, testing::ValuesIn(wrong_usages),
                          [](const auto& test) { return std::string(test.param.name); });
+
+TEST(WrongUsage, OfAnyLengthIsOneShortLine) {
+  std::vector<std::string> many = {"export", "run", "-o", "x.ply"};
+  for (int i = 0; i < 50'000; ++i) many.push_back(std::to_string(i));
+  for (const std::vector<std::string>& arguments : {many,
+                                                    {"verify", "--threads", std::string(100'000, 'x'), "a", "b"},
+                                                    {std::string(100'000, 'v')},
+                                                    {"verify", "--" + std::string(100'000, 'k')}}) {
+    const Process process = run_noli(arguments);
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_LT(process.err.size(), 600U);
+    EXPECT_EQ(std::ranges::count(process.err, '\n'), 1);
+  }
+}
 
 }  // namespace
 }  // namespace noli::app_tests

@@ -71,8 +71,8 @@ TEST(ContactList, SharesItsRoomAndPutsTheFirstFirst) {
   const std::vector<FeatureContact> contacts = {vertex_face(3), vertex_face(4), vertex_face(5), vertex_face(6)};
   ListedContact first = listed(vertex_face(5));
   first.step = 1;
-  list.add(1, first, contacts, exactly);
-  list.add(3, std::nullopt, contacts, exactly);
+  list.add(1, first, contacts, exactly, [] { return false; });
+  list.add(3, std::nullopt, contacts, exactly, [] { return false; });
   const std::vector<ListedContact> all = list.take();
   ASSERT_EQ(all.size(), 4U);
   EXPECT_EQ(all[0].contact.vertices[0], 5U);
@@ -91,11 +91,19 @@ TEST(ContactList, OfManyStepsAsksForNoMoreThanAreListed) {
     return listed(contact);
   };
   const std::vector<FeatureContact> contacts(50, vertex_face(3));
-  for (std::size_t step = 1; step <= 1000; ++step) list.add(step, std::nullopt, contacts, exactly);
+  for (std::size_t step = 1; step <= 1000; ++step)
+    list.add(step, std::nullopt, contacts, exactly, [] { return false; });
   const auto all = list.take();
   EXPECT_EQ(all.size(), 10U);
   EXPECT_EQ(all.back().step, 10U);
   EXPECT_LT(asked, 40U);
+}
+
+TEST(ContactList, EndsWhenItIsStopped) {
+  ContactList list(100'000);
+  const std::vector<FeatureContact> contacts(100'000, vertex_face(3));
+  list.add(1, std::nullopt, contacts, listed, [] { return true; });
+  EXPECT_LT(list.take().size(), 1000U);
 }
 
 TEST(MeetingPoint, OfAVertexIsTheVertex) {

@@ -3,7 +3,7 @@
 // The motion with its contacts: view, time line and list, which follow each other. It opens at the first contact.
 import { contactList } from "./contacts.js";
 import * as data from "./data.js";
-import { element, number } from "./dom.js";
+import { counted, element, number } from "./dom.js";
 import { contactText, inOrder, intersectionsOf } from "./features.js";
 import { markStrip, stepButtons } from "./marks.js";
 import { Motion } from "./motion.js";
@@ -164,8 +164,8 @@ class Stage {
     const total = this.perStep[step - 1];
     return this.say(
       total > 0
-        ? `Step ${number(step)} has ${number(total)} contacts. None of them is listed: noli verify --max-reports lists more.`
-        : `Contacts of the step before go on in step ${number(step)}.`,
+        ? `Step ${number(step)} has ${counted(total, "contact")}, which this page does not list.`
+        : `No contact begins in step ${number(step)}.`,
       false,
     );
   }

@@ -170,6 +170,7 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
                {"library", options.asked.path.string()},
                {"tolerance", options.asked.tolerance},
                {"exact", options.asked.exact},
+               {"late_tolerance", options.asked.late_tolerance},
                {"knows_times", report.knows_times},
                {"seed", options.limits.seed},
                {"queries", report.items},

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <system_error>
 
@@ -83,7 +84,11 @@ std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
 }
 
 std::string c_array(const AnyQuery& query) {
-  const auto point = [](const Point3& x) { return fmt::format("{{{:.17g}, {:.17g}, {:.17g}}}", x[0], x[1], x[2]); };
+  // "-0" would be the integer 0.
+  const auto number = [](double x) { return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{:.17g}", x); };
+  const auto point = [&](const Point3& x) {
+    return fmt::format("{{{}, {}, {}}}", number(x[0]), number(x[1]), number(x[2]));
+  };
   const auto points = [&](const auto& x) {
     std::string text;
     for (std::size_t i = 0; i < query.size(); ++i) text += (i == 0 ? "" : ", ") + point(x[i]);
