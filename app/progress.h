@@ -19,8 +19,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows a share of the work in [0, 1], what it is at (a few words, or nothing), and about how long the rest takes, at
-  /// most ten times a second. Calls must not overlap.
+  /// Shows a share of the work in [0, 1], what it is at (a few words, or nothing), and about how long the rest takes,
+  /// at most ten times a second. Calls must not overlap.
   void show(double share, const std::string& at = "");
 
  private:

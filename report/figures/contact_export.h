@@ -2,8 +2,8 @@
 //
 // Shows one contact of a result of `noli verify`: the geometry at the time of contact, with what meets marked.
 //
-//   .vtu   a grid with a number for each cell under the name "contact": 1 for cells of the first feature, 2 for those of
-//          the second, else 0
+//   .vtu   a grid with a number for each cell under the name "contact": 1 for cells of the first feature, 2 for those
+//          of the second, else 0
 //   .png   a picture around the point of contact, cells of the first feature red, of the second yellow
 //
 // What this does not do: positions at the time of contact are rounded. It decides nothing.
@@ -19,8 +19,9 @@ namespace noli::report {
 
 struct ContactExportRequest {
   std::filesystem::path result;  ///< written by noli verify --json; the files that it names must be as they were
-  std::size_t number = 0;        ///< which of its listed contacts, from 1; 0: the first, or else the first cells that intersect
-  PictureView view;              ///< of a picture; `zoom` is not used
+  std::size_t number =
+      0;             ///< which of its listed contacts, from 1; 0: the first, or else the first cells that intersect
+  PictureView view;  ///< of a picture; `zoom` is not used
   std::filesystem::path output;  ///< ends in .vtu or .png
 };
 

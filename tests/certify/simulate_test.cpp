@@ -65,7 +65,7 @@ TEST_F(SimulateInProcess, StopsAtACondition) {
   EXPECT_EQ(rest.windows_before, 2U);
 }
 
-/// A point that falls, with a breakpoint at each kick of gravity: windows end early, and the run is stopped behind each.
+/// A point that falls, with a breakpoint at each kick of gravity: windows end early; the run is stopped behind each.
 TEST_F(SimulateInProcess, GoesOnFromAWindowThatEndedEarly) {
   SimulateRequest asked = request();
   asked.scene = folder.write("falling.json", R"({

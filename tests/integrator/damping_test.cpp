@@ -33,7 +33,7 @@ Big kinetic_energy(const VertexVectors<double, Dim, N>& v, const std::array<doub
   return sum;
 }
 
-/// Damps, and tells the work on the vertices of finite mass: impulses with the means of the velocities before and after.
+/// Damps, and tells the work on the vertices of finite mass: impulses with means of the velocities before and after.
 template <class F, class S, int Dim, std::size_t N>
 S work_of_damping(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
                   const std::array<S, N>& inverse_mass, const S& h) {

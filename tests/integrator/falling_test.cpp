@@ -194,7 +194,7 @@ TEST(Falling, AnImpactCostsAboutATwelfthOfGravitysStepSquared) {
   EXPECT_NEAR(change.mean, theory, 3 * change.error);
 }
 
-/// With layers that are soft, and whose steps are not short beside gravity's, as by default: an error of the first order
+/// With layers that are soft, and whose steps are not short beside gravity's, as by default: an error of first order
 /// in h(1) would be m v g h(1) / 2 or so.
 TEST(Falling, AnImpactOnSoftLayersHasNoTrend) {
   Model<double, 2> model = stiff_ball(0, 3, 0x1p-9);
@@ -226,7 +226,7 @@ TEST(Falling, RestStaysRest) {
   EXPECT_EQ(books.of(ForceKind::contact).events, 8 / h + 1) << "the first layer, each time and at the start";
 }
 
-/// A ring, points and a floor, with several stiffnesses of contact and so several h(1); windows end early, in the middle of
+/// A ring, points and a floor, with several stiffnesses of contact and so several h(1); windows end early, amid
 /// everything.
 Model<double, 2> several_materials(const std::string& steps) {
   const std::string text = R"({

@@ -252,7 +252,7 @@ LayerSum layer_of(const Patches& patches, const std::vector<certificates::Stenci
   return sum;
 }
 
-/// A flat patch above a flat one of ten times its size, across an edge and away from its vertices. However it is tilted,
+/// A flat patch above a flat one of ten times its size, across an edge away from its vertices. However it is tilted,
 /// it is pushed straight up.
 TEST(EdgeExcess, AFlatFloorPushesStraightUp) {
   noli::test::Random random(5);

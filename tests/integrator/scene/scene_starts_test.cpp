@@ -128,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SceneStarts,
                          ::testing::Values("billiard", "bounce", "bowline", "compactor", "curtains", "drape_mesh",
                                            "drape_sphere", "incline", "nails", "plane_compactor",
                                            "plane_compactor_elastic", "plane_curtain", "plane_nails", "reef_knot",
-                                           "restitution", "ring_in_box", "sphere_plate", "stack", "through_ring", "trefoil"));
+                                           "restitution", "ring_in_box", "sphere_plate", "stack", "through_ring",
+                                           "trefoil"));
 
 }  // namespace
 }  // namespace noli::integrator
