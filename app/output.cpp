@@ -47,9 +47,7 @@ Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& 
 std::string Output::words(const report::Answer& answer) const {
   if (options_.quiet) return "";
   if (options_.porcelain) return answer.porcelain();
-  const std::string behind = answer.behind_verdict();
-  return answer.words_above(options_.verbose) + verdict_in_colour(answer) + (behind.empty() ? "" : "  " + behind) +
-         '\n';
+  return answer.words_above(options_.verbose) + answer.last_line(verdict_in_colour(answer)) + '\n';
 }
 
 void Output::write(std::string_view schema, const report::Answer& answer, Json json) const {

@@ -48,7 +48,7 @@ void Progress::show(double share, const std::string& at) {
 }
 
 std::string Progress::left(double share) const {
-  constexpr double least = 0.02;  // before that nobody knows
+  constexpr double least = 0.02;  // earlier estimates are too rough
   const double seconds = since_begin_.seconds();
   if (share < least || share >= 1 || seconds < 1) return "";
   const double rest = seconds * (1 - share) / share;

@@ -13,6 +13,7 @@
 #include <noli/verify.h>
 #include "app/commands.h"
 #include "app/help.h"
+#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
@@ -331,7 +332,7 @@ ExitCode run(VerifyArguments& arguments) {
   const VerifyOutcome outcome = verify(request, route);
   bars.reset();
   if (arguments.claim_out && outcome.claim.cells.empty()) {
-    std::fputs("noli: note: no claim was written: no step was looked at\n", stderr);
+    tell_note("no claim was written: no step was looked at");
   } else if (arguments.claim_out) {
     write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
   }

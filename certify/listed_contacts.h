@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which contacts are listed, and what is told of each: time, kind, place, cells, bodies.
+// Chooses the contacts that a result lists, and finds time, kind, point, cells and bodies of each.
 //
 // Notation
 //   share   how many of a step's contacts are listed. All steps have the same share; a step with fewer contacts leaves

@@ -49,18 +49,14 @@ std::string Answer::porcelain() const {
   return line + '\n';
 }
 
-std::string Answer::behind_verdict() const {
-  if (!place.empty()) return place;
-  std::string behind;
-  for (const auto& [key, value] : pairs_) behind += (behind.empty() ? "" : ", ") + key + ' ' + on_one_line(value);
-  return behind;
-}
-
 std::string Answer::verdict_word() const { return in_capitals(verdict_); }
 
-std::string Answer::last_line() const {
-  const std::string behind = behind_verdict();
-  return verdict_word() + (behind.empty() ? "" : "  " + behind);
+std::string Answer::last_line(const std::string& word) const {
+  std::string behind = place;
+  if (behind.empty()) {
+    for (const auto& [key, value] : pairs_) behind += (behind.empty() ? "" : ", ") + key + ' ' + on_one_line(value);
+  }
+  return word + (behind.empty() ? "" : "  " + behind);
 }
 
 std::string Answer::words_above(bool verbose) const {

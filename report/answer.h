@@ -55,10 +55,9 @@ class Answer {
   std::string verdict_word() const;
   /// The verdict as programs know it: "no_finding".
   const std::string& verdict() const { return verdict_; }
-  /// What stands behind the verdict in the last line.
-  std::string behind_verdict() const;
-  /// The last line: "NO FINDING  queries 10, findings 0".
-  std::string last_line() const;
+  /// The last line: "NO FINDING  queries 10, findings 0". `word`: the verdict as it is shown, in colour perhaps.
+  std::string last_line(const std::string& word) const;
+  std::string last_line() const { return last_line(verdict_word()); }
 
  private:
   std::string verdict_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "certify/listed_contacts.h"
 #include "integrator/scene/json_text.h"
 #include "report/report_statement.h"
 #include "report/report_verdict.h"
@@ -31,18 +32,6 @@ auto as_written(const std::filesystem::path& path, F&& f) {
   } catch (const Json::exception& error) {
     throw InputError(path.string(), "", fmt::format("is no result of noli verify: {}", error.what()));
   }
-}
-
-/// How many contacts a page can list of each step, at least one, if they are so many.
-std::size_t quota(const std::map<std::uint64_t, std::size_t>& of_step) {
-  std::size_t most = most_listed;
-  const auto listed = [&] {
-    std::size_t sum = 0;
-    for (const auto& [step, number] : of_step) sum += std::min(number, most);
-    return sum;
-  };
-  while (most > 1 && listed() > most_listed) --most;
-  return most;
 }
 
 std::string pairs(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pair" : "pairs"); }
@@ -192,13 +181,14 @@ class Verified {
 
   /// Which contacts the page lists: of each step as many as there is room for, its first ones.
   std::vector<std::size_t> spread(const Json& all) const {
-    std::vector<std::uint64_t> steps;
-    std::map<std::uint64_t, std::size_t> of_step, taken;
-    for (const Json& contact : all) ++of_step[steps.emplace_back(count(contact.at("step"), "step"))];
-    const std::size_t most = quota(of_step);
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < steps.size() && chosen.size() < most_listed; ++i) {
-      if (++taken[steps[i]] <= most) chosen.push_back(i);
+    std::map<std::uint64_t, std::vector<std::size_t>> of_step;
+    for (std::size_t i = 0; i < all.size(); ++i) of_step[count(all.at(i).at("step"), "step")].push_back(i);
+    std::vector<std::size_t> counts, chosen;
+    for (const auto& [step, contacts] : of_step) counts.push_back(contacts.size());
+    const std::vector<std::size_t> shares = fair_shares(counts, most_listed);
+    std::size_t next = 0;
+    for (const auto& [step, contacts] : of_step) {
+      chosen.insert(chosen.end(), contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(shares[next++]));
     }
     return chosen;
   }

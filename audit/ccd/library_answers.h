@@ -36,7 +36,7 @@ namespace noli::audit {
 /// A library, and what it says of itself.
 struct LibraryUnderTest {
   std::filesystem::path path;
-  double tolerance = 1e-6;    ///< what it is told, a length
+  double tolerance = 1e-6;    ///< passed to the library; a length
   bool exact = false;         ///< it claims to be: false positives and early times are faults
   double late_tolerance = 0;  ///< times that are late by no more than that are no faults; part of the step
   HostOptions host;           ///< nothing is asked again, whatever `repeat_seconds`
@@ -124,7 +124,7 @@ struct FaultFound {
 std::optional<FaultFound> fault_of(const LibraryAnswer& answer, const std::optional<ExactContact>& exact,
                                    bool knows_times, double late_tolerance = 0);
 
-/// Missed contacts first, then answers that are none, lateness last: the order in which a person should read findings.
+/// The order in which findings are listed: missed contacts first, then crashes and failures, late times last.
 int rank(LibraryFault fault);
 
 /// Whether it is a finding with a library that claims that.

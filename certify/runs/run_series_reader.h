@@ -32,7 +32,7 @@ class SeriesReader : public RunReader {
 
   std::filesystem::path run_;
   std::optional<WindowState> state_;
-  std::string why_none_;  ///< why there is none
+  std::string why_none_;  ///< why the series is missing
 };
 
 }  // namespace noli

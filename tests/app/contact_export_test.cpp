@@ -52,7 +52,7 @@ TEST_F(ContactExport, WritesTheGridAtTheTimeOfContact) {
   EXPECT_NE(grid.find(marks), std::string::npos) << grid;
 }
 
-TEST_F(ContactExport, PaintsBothSidesInTheirColours) {
+TEST_F(ContactExport, WritesAPicture) {
 #ifdef NOLI_WITH_PNG
   result();
   EXPECT_EQ(export_to("first.png", {"--size", "200x150"}).exit_code, 0);

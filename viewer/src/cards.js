@@ -100,8 +100,8 @@ export const paragraphs = (title, lines) =>
     : null;
 export const fold = (title, ...nodes) => folded(title, () => nodes.filter(Boolean));
 
-/** "build/plugins/textbook.so" as "textbook". */
-export const libraryName = (path) =>
+/** Of a result about a library: "build/plugins/textbook.so" as "textbook". */
+export const nameOfLibrary = ({ library: path }) =>
   String(path)
     .split("/")
     .pop()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results of noli audit ccd: of files of queries, and of whole steps.
-import { columnTable, fileName, fold, libraryName, mustBeNone, paragraphs } from "./cards.js";
+import { columnTable, fileName, fold, mustBeNone, nameOfLibrary, paragraphs } from "./cards.js";
 import { number, pairName, words } from "./dom.js";
 import { featureText } from "./features.js";
 import { gridOf, scatter } from "./plots.js";
@@ -12,7 +12,7 @@ const nanoseconds = "time per query [ns]";
 /** "textbook, tolerance 1e-6"; the tolerance only where libraries were asked with several. */
 function nameOf(audit, audits) {
   const several = new Set(audits.map((a) => a.tolerance)).size > 1;
-  return libraryName(audit.library) + (several ? `, tolerance ${number(audit.tolerance)}` : "");
+  return nameOfLibrary(audit) + (several ? `, tolerance ${number(audit.tolerance)}` : "");
 }
 
 /** Audits with their times, which stand apart because they differ from run to run. */
@@ -97,7 +97,7 @@ function ccd(result) {
   return [
     gridOf(ccdPlots(audits)),
     columnTable("Libraries, all files", audits, [
-      ["library", (a) => libraryName(a.library)],
+      ["library", nameOfLibrary],
       ["tolerance [length]", (a) => a.tolerance],
       count("queries"),
       ...faultColumns,
@@ -139,7 +139,7 @@ function pipeline(result) {
       ),
     ]),
     columnTable("Libraries", audits, [
-      ["library", (a) => libraryName(a.library)],
+      ["library", nameOfLibrary],
       ["tolerance [length]", (a) => a.tolerance],
       ...both("candidates", "candidates"),
       ["contacts not found", (a) => a.not_found, true],

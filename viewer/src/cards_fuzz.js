@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results of noli fuzz.
-import { bars, columnTable, libraryName, mustBeNone } from "./cards.js";
+import { bars, columnTable, mustBeNone, nameOfLibrary } from "./cards.js";
 import { number, pairName, words } from "./dom.js";
 
 /** Findings that are listed, by what all fuzzers say of one. */
@@ -42,8 +42,8 @@ const countsOf = (rows, object) =>
 /** {name: {count: n}} as rows. */
 const named = (object, inner) => Object.entries(object).map(([name, counts]) => ({ name, [inner]: counts }));
 
-const library = (result) => [
-  ["library", libraryName(result.library)],
+const asked = (result) => [
+  ["library", nameOfLibrary(result)],
   ["tolerance", result.tolerance],
 ];
 
@@ -139,7 +139,7 @@ export const fuzzCards = {
   "noli-fuzz-library-queries": {
     title: "Fuzzer of queries: a library of collision detection",
     figures: (r) => [
-      ...library(r),
+      ...asked(r),
       ["queries", r.queries],
       ["contacts", r.contacts],
       mustBeNone("findings", r.findings),
@@ -159,7 +159,7 @@ export const fuzzCards = {
   "noli-fuzz-library-trajectories": {
     title: "Fuzzer of motions: a library of collision detection",
     figures: (r) => [
-      ...library(r),
+      ...asked(r),
       ["motions", r.trajectories],
       ["contacts", r.contacts],
       ["candidates", r.candidates],
