@@ -37,8 +37,11 @@ constexpr const char* export_footer =
     "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720   a film\n"
     "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n";
 
+constexpr const char* open_window_is_left_out = "The run ends in a window that was never committed; it is left out.\n";
+
 struct ExportArguments {
   ExportRequest frames;
+  bool fps_given = false;
   std::optional<std::string> figure;
   std::optional<double> at;
   std::optional<std::size_t> contact;
@@ -49,17 +52,20 @@ struct ExportArguments {
 
 ExitCode draw(const report::FigureRequest& request) {
   const report::FigureOutcome outcome = report::run_figure(request);
-  std::string text =
-      fmt::format("figure {} windows {} end {}\n", request.figure, outcome.windows, digits17(outcome.end));
-  if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
-  write_standard_output(text);
+  report::Answer answer("written");
+  if (outcome.open_window) answer.text = open_window_is_left_out;
+  answer.place = fmt::format("{}  {} of {} windows, up to {} s", on_one_line(request.output), request.figure,
+                             outcome.windows, outcome.end);
+  write_words(answer);
   return ExitCode::holds;
 }
 
 ExitCode paint(const report::PictureRequest& request) {
   const report::PictureOutcome outcome = report::run_picture(request);
-  write_standard_output(
-      fmt::format("picture width {} height {} time {}\n", outcome.width, outcome.height, digits17(outcome.time)));
+  report::Answer answer("written");
+  answer.place = fmt::format("{}  {} x {} pixels, at {} s", on_one_line(request.output.string()), outcome.width,
+                             outcome.height, outcome.time);
+  write_words(answer);
   return ExitCode::holds;
 }
 
@@ -85,12 +91,37 @@ ExitCode show_contact(const ExportArguments& arguments) {
   if (arguments.at || arguments.figure || !arguments.zoom.empty()) {
     throw UsageError("--at, --figure, --zoom: are for runs; expected none of them with a result");
   }
+  if (arguments.fps_given || !arguments.time_limit.empty()) {
+    throw UsageError("--fps, --time-limit: are for runs; expected neither with a result");
+  }
+  const bool picture = request.pattern.ends_with(".png");
+  if (!picture && (arguments.from || !arguments.size.empty())) {
+    throw UsageError("--from, --size: are for pictures; expected -o with a name that ends in .png");
+  }
   require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   const report::ContactExport shown = report::export_contact(
       {request.run, arguments.contact.value_or(0), {arguments.from, size_of(arguments.size), ""}, request.pattern});
-  write_standard_output(
-      fmt::format("contact step {} time {} cells {}\n", shown.step, digits17(shown.time), shown.cells));
+  report::Answer answer("written");
+  answer.text = picture ? "Red: cells of the first feature. Yellow: cells of the second.\n"
+                        : "The cell array \"contact\": 1 for cells of the first feature, 2 for cells of the second.\n";
+  answer.place = fmt::format("{}  step {} at t = {}, {} cells marked", on_one_line(request.pattern), shown.step,
+                             shown.time, shown.cells);
+  write_words(answer);
   return ExitCode::holds;
+}
+
+report::Answer export_answer(const ExportRequest& request, const ExportOutcome& outcome) {
+  report::Answer answer(outcome.interrupted ? "interrupted" : "written");
+  if (!outcome.pvd.empty()) answer.text += fmt::format("ParaView opens the series: {}\n", on_one_line(outcome.pvd));
+  if (outcome.removed > 0) answer.text += fmt::format("Removed: {} files of an earlier export.\n", outcome.removed);
+  if (outcome.recorded) {
+    answer.text += "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n";
+  }
+  if (outcome.open_window) answer.text += open_window_is_left_out;
+  answer.text += "Straight lines between these frames are not the certified motion; the world lines of the run are.\n";
+  answer.place = fmt::format("{}  {} frames of {} windows, up to {} s", on_one_line(request.pattern), outcome.frames,
+                             outcome.windows, outcome.end);
+  return answer;
 }
 
 ExitCode run(const ExportArguments& arguments) {
@@ -111,15 +142,7 @@ ExitCode run(const ExportArguments& arguments) {
     throw UsageError("--from, --size, --zoom: are of pictures; expected --at, or -o with a pattern that ends in .png");
   }
   const ExportOutcome outcome = film ? report::run_film({request, view}) : run_export(request);
-  std::string text = fmt::format("frames {} windows {} end {} complete {}\n", outcome.frames, outcome.windows,
-                                 digits17(outcome.end), !outcome.interrupted);
-  if (!outcome.pvd.empty()) text += fmt::format("Series: {}\n", outcome.pvd);
-  if (outcome.removed > 0) text += fmt::format("Removed: {} files of an earlier export.\n", outcome.removed);
-  if (outcome.recorded)
-    text += "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n";
-  if (outcome.open_window) text += "The run ends in a window that was never committed; it is left out.\n";
-  text += "Straight lines between these frames are not the certified motion; the world lines of the run are.\n";
-  write_standard_output(text);
+  write_words(export_answer(request, outcome));
   return outcome.interrupted ? ExitCode::undecided : ExitCode::holds;
 }
 
@@ -162,7 +185,10 @@ Command add_export(CLI::App& app) {
       ->excludes(figure)
       ->type_name("N");
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time: 500ms, 60s, 5m, 1h");
-  return {command, [arguments] { return run(*arguments); }};
+  return {command, [arguments, fps] {
+            arguments->fps_given = fps->count() > 0;
+            return run(*arguments);
+          }};
 }
 
 }  // namespace noli::app

@@ -78,6 +78,11 @@ Json mesh_info(const std::filesystem::path& path) {
 }
 
 Json info_of(const std::filesystem::path& path) {
+  if (extension_of(path) == ".json") {
+    throw InputError(path.string(), "",
+                     "is JSON; `noli explain` describes a scene, `noli report` shows a result, `noli export` draws its "
+                     "first contact");
+  }
   if (std::filesystem::is_directory(path)) return run_info(path);
   if (is_proof(path)) return proof_info(path);
   return extension_of(path) == ".csv" ? query_info(path) : mesh_info(path);

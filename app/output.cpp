@@ -36,6 +36,10 @@ std::string verdict_in_colour(const report::Answer& answer) {
   return answer.verdict_word();
 }
 
+std::string words_of(const report::Answer& answer, bool verbose) {
+  return answer.words_above(verbose) + answer.last_line(verdict_in_colour(answer)) + '\n';
+}
+
 }  // namespace
 
 Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& inputs, std::vector<OutputFile> others)
@@ -47,7 +51,7 @@ Output::Output(OutputOptions options, const std::vector<std::filesystem::path>& 
 std::string Output::words(const report::Answer& answer) const {
   if (options_.quiet) return "";
   if (options_.porcelain) return answer.porcelain();
-  return answer.words_above(options_.verbose) + answer.last_line(verdict_in_colour(answer)) + '\n';
+  return words_of(answer, options_.verbose);
 }
 
 void Output::write(std::string_view schema, const report::Answer& answer, Json json) const {
@@ -61,6 +65,8 @@ void Output::write(std::string_view schema, const report::Answer& answer, Json j
   write_result(*path, to_text(document));
   write_standard_output(words(answer));
 }
+
+void write_words(const report::Answer& answer) { write_standard_output(words_of(answer, false)); }
 
 void write_standard_output(const std::string& text) {
   if (!write_all(STDOUT_FILENO, text))

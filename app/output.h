@@ -44,6 +44,9 @@ class Output {
   OutputOptions options_;
 };
 
+/// Writes the text, and the verdict last: of a command without JSON. Throws WriteError.
+void write_words(const report::Answer& answer);
+
 /// Writes to standard output, all of it. Throws WriteError.
 void write_standard_output(const std::string& text);
 

@@ -273,8 +273,10 @@ ExitCode run(const ReportArguments& arguments) {
   replace_file(arguments.output, html);
   const Json& scene = page.page["scene"];
   if (arguments.open) open_in_browser(arguments.output);
-  write_standard_output(fmt::format("report bytes {} frames {}\n", html.size(),
-                                    scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>()));
+  report::Answer answer("written");
+  answer.place = fmt::format("{}  {} frames, {} bytes", on_one_line(arguments.output.string()),
+                             scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>(), html.size());
+  write_words(answer);
   return ExitCode::holds;
 }
 

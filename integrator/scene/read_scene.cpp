@@ -169,11 +169,20 @@ SceneContact read_contact(const Field& f, const Scene& scene) {
   return contact;
 }
 
+/// Results of `--json` name their schema: "noli-verify". Throws InputError.
+void refuse_results(const Json& document, const std::string& file) {
+  if (!document.is_object() || !document.contains("schema") || !document["schema"].is_string()) return;
+  const auto schema = document["schema"].get<std::string>();
+  if (!schema.starts_with("noli-")) return;
+  throw InputError(file, "", fmt::format("is a result ({}); expected a scene; `noli report` shows results", schema));
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form) {
   static const Json schema = parse_json(scene_schema_text(), "schemas/scene.json");
   Json document = parse_json(text, path.string());
+  refuse_results(document, path.string());
   if (form == Form::brief) apply_short(document, path.string());
   Validated validated = validate(schema, document, path.string());
   Scene scene;

@@ -45,7 +45,9 @@ TEST_F(ContactExport, WritesTheGridAtTheTimeOfContact) {
   result();
   const Process process = export_to("hits.vtu");
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_EQ(process.out, "contact step 1 time 0.5 cells 2\n");
+  EXPECT_NE(process.out.find("WRITTEN  " + folder.path("hits.vtu") + "  step 1 at t = 0.5, 2 cells marked\n"),
+            std::string::npos)
+      << process.out;
   const std::string grid = test::read_text(folder.path("hits.vtu"));
   EXPECT_NE(grid.find("<CellData Scalars=\"contact\">"), std::string::npos);
   const std::string marks = "AgAAAAAAAAACAQ==";  // two bytes: 2, 1
@@ -85,7 +87,8 @@ TEST_F(ContactExport, RefusesResultsWithoutContact) {
   expect_refused(export_to("hits.vtu"), "is no result of noli verify");
 }
 
-std::size_t marked(const Process& process) { return std::stoul(process.out.substr(process.out.rfind(' ') + 1)); }
+/// "... t = 0.5, 2 cells marked"
+std::size_t marked(const Process& process) { return std::stoul(process.out.substr(process.out.rfind(", ") + 2)); }
 
 TEST_F(ContactExport, ShowsCellsThatIntersectWhereNoPairOfFeaturesMeets) {
   const std::string path = folder.path("result.json");
@@ -126,6 +129,8 @@ TEST_F(ContactExport, RefusesWhatIsForRuns) {
   result();
   expect_refused(export_to("hits.ply"), "ends in .vtu or .png");
   expect_refused(export_to("hits.png", {"--at", "1"}), "are for runs");
+  expect_refused(export_to("hits.png", {"--fps", "24"}), "are for runs");
+  expect_refused(export_to("hits.vtu", {"--size", "200x150"}), "are for pictures");
 }
 
 TEST_F(ContactExport, ReplacesNothingUnlessForced) {

@@ -526,7 +526,7 @@ TEST_F(Report, TheWorkedExample) {
   const auto commands = worked_example("docs/reference/report.md", "## An example");
   ASSERT_EQ(commands.size(), 3u);
   expect_worked_example(commands, {{"noli ", std::string(NOLI_COMMAND) + " "}, {"sheets", folder.path("sheets")}},
-                        " bytes");
+                        " frames");
   EXPECT_TRUE(fs::exists(folder.path("sheets.html")));
 }
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <noli/contact.h>
@@ -122,9 +124,7 @@ class LibraryFuzzing
       save(finding);
       different.push_back(std::move(finding));
     }
-    std::ranges::stable_sort(different, {}, [](const LibraryFinding& finding) {
-      return std::pair(rank(finding.found.fault), finding.found.kind != ContactKind::crossing);
-    });
+    std::ranges::stable_sort(different, {}, importance);
     findings = std::move(different);
   }
 
@@ -163,6 +163,28 @@ class LibraryFuzzing
     for (LibraryFinding& finding : asked.findings) keep_simplest(std::move(finding));
   }
 
+  /// Missed crossings first; of equal faults those of ordinary queries, which no special position explains.
+  static std::tuple<int, bool, bool> importance(const LibraryFinding& finding) {
+    return {rank(finding.found.fault), finding.found.kind != ContactKind::crossing,
+            !finding.generator.starts_with("generic/")};
+  }
+
+  /// Drops the last of the least important findings if this one is more important, but none that is the only one of its
+  /// fault and kind of contact. Whether there is room now.
+  bool make_room_for(const LibraryFinding& finding) {
+    auto& all = report_.findings;
+    const auto spared = [&](const LibraryFinding& one) {
+      const auto like = [&](const LibraryFinding& other) { return other.found.is_like(one.found); };
+      return !one.found.is_like(finding.found) && std::ranges::count_if(all, like) == 1;
+    };
+    const auto key = [&](const LibraryFinding& one) { return std::pair(!spared(one), importance(one)); };
+    const auto least = std::ranges::max_element(all.rbegin(), all.rend(), {}, key);
+    if (least == all.rend() || spared(*least) || importance(*least) <= importance(finding)) return false;
+    if (!least->file.empty()) fs::remove(least->file);
+    all.erase(std::next(least).base());
+    return true;
+  }
+
   /// The simplest of each fault and generator, saved as it is: it is shrunk later, and should not be lost until then.
   void keep_simplest(LibraryFinding finding) {
     const bool room = is_kept();
@@ -170,8 +192,11 @@ class LibraryFuzzing
       return other.found.is_like(finding.found) && other.generator == finding.generator;
     };
     auto& all = report_.findings;
-    const auto found = std::find_if(all.begin(), all.end(), same);
-    if (found == all.end() && !room) return;
+    auto found = std::find_if(all.begin(), all.end(), same);
+    if (found == all.end() && !room) {
+      if (!make_room_for(finding)) return;
+      found = all.end();
+    }
     finding.alike = 1;
     if (found != all.end()) {
       ++found->alike;

@@ -19,6 +19,7 @@ namespace noli::app_tests {
 namespace {
 
 using Json = nlohmann::json;
+namespace fs = std::filesystem;
 
 Words mutants() {
   std::istringstream words(NOLI_MUTANT_NAMES);
@@ -89,6 +90,19 @@ TEST_F(FuzzLibrary, ShowsMissedCrossingsFirstAndLatenessLast) {
   for (const Json& report : document["reports"]) orders.push_back(order(report));
   EXPECT_TRUE(std::is_sorted(orders.begin(), orders.end()));
   EXPECT_EQ(document["reports"].back()["finding"], "late");
+}
+
+/// A library that never answers "contact" has more kinds of findings than there is room for.
+TEST_F(FuzzLibrary, KeepsOrdinaryQueriesWhereThereIsLittleRoom) {
+  const Json all = json(mutant("end_excluded"), 1, {"--count", "20000", "--max-findings", "1000"});
+  const Json few = json(mutant("end_excluded"), 1, {"--count", "20000", "--max-findings", "2"});
+  EXPECT_EQ(few["findings"], all["findings"]) << "all are counted";
+  ASSERT_GT(all["reports"].size(), 2U);
+  ASSERT_EQ(few["reports"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(few["reports"][i]["generator"], all["reports"][i]["generator"]);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("out")), fs::directory_iterator()),
+            static_cast<std::ptrdiff_t>(all["reports"].size() + 2))
+      << "those that were dropped leave no file";
 }
 
 TEST_F(FuzzLibrary, GivesACArrayToPaste) {

@@ -182,6 +182,17 @@ TEST(ReadScene, WhatIsNoJsonIsNamedByLineAndColumn) {
   EXPECT_EQ(problem_of("[]"_json), "s.json: /: expected an object, found []");
 }
 
+TEST(ReadScene, AResultIsNoScene) {
+  try {
+    parse_scene(R"({"schema": "noli-verify", "version": 1})", "result.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("result.json: is a result (noli-verify); expected a scene"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ReadScene, AFileThatIsNotThere) { EXPECT_THROW(read_scene("no/such/scene.json"), InputError); }
 
 TEST(ReadScene, NamesOfBodiesDiffer) {
