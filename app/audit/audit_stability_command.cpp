@@ -19,9 +19,11 @@
 #include "app/process.h"
 #include "audit/ccd/audit_report.h"
 #include "audit/numerics/stability.h"
+#include "audit/numerics/stability_figure.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {
@@ -42,6 +44,7 @@ constexpr const char* stability_footer =
     "Examples:\n"
     "  noli audit stability\n"
     "  noli audit stability --row offset --row offset-contact --json result.json\n"
+    "  noli audit stability --svg stability.svg\n"
     "  noli audit stability --program build/asan/app/noli --point-limit 2m\n";
 
 struct StabilityArguments {
@@ -50,7 +53,7 @@ struct StabilityArguments {
   std::uint64_t points = 100;
   std::string point_limit = "20s";
   std::string out = "stability-findings";
-  std::optional<std::string> program;
+  std::optional<std::string> program, svg;
   OutputOptions results;
 };
 
@@ -173,7 +176,7 @@ ExitCode run(StabilityArguments& arguments) {
   options.point_limit = parse_duration(arguments.point_limit, "--point-limit");
   if (arguments.program) require_program(*arguments.program, "--program");
   options.program = arguments.program ? std::filesystem::absolute(*arguments.program) : this_program_file();
-  const Output output(arguments.results, {options.program});
+  const Output output(arguments.results, {options.program}, outputs("--svg", arguments.svg));
   require_writable_folder(arguments.out, "--out");
   options.out = arguments.out;
   options.stop = &interrupted();
@@ -186,6 +189,7 @@ ExitCode run(StabilityArguments& arguments) {
   const Stopwatch watch;
   const StabilityReport report = audit::audit_stability(rows, options);
   const double seconds = watch.seconds();
+  if (arguments.svg) write_file(*arguments.svg, audit::stability_svg(report));
   const Json json = stability_json(report, seconds);
   output.write("audit-stability", stability_answer(json, report, seconds), json);
   return exit_code_of(report.findings() > 0, report.complete);
@@ -212,6 +216,7 @@ Command add_audit_stability(CLI::App& audit) {
   command->add_option("--out", arguments->out, "Folder for the input of findings, made when there is one")
       ->capture_default_str()
       ->type_name("DIR");
+  command->add_option("--svg", arguments->svg, "Draw what holds up to which value")->type_name("OUT.svg");
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -46,6 +46,7 @@ constexpr const char* queries_footer =
     "  noli fuzz queries --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
     "  noli fuzz queries --library ./mine.so --replay fuzz-findings/*.csv\n"
+    "  gdb --args noli fuzz queries --library ./mine.so --replay crash.csv --in-process\n"
     "  noli fuzz queries --for 60s --seed 1                the kernel itself\n"
     "  noli fuzz queries --count 1000000 --threads 2 --corpus corpus --json result.json\n";
 
@@ -293,6 +294,14 @@ Command add_fuzz_queries(CLI::App& fuzz) {
   CLI::Option* const again =
       command->add_option("--replay", arguments->replay, "Decide the queries of these files again instead")
           ->type_name("FILE");
+  command
+      ->add_flag("--in-process", arguments->asked.host.in_process,
+                 "Call the library in this process, for a debugger or a sanitizer: nothing protects noli from it")
+      ->needs(again)
+      ->needs(command->get_option("--library"))
+      ->excludes(command->get_option("--sandbox"))
+      ->excludes(command->get_option("--query-limit"))
+      ->excludes(command->get_option("--memory-limit"));
   CLI::Option* const smaller = command
                                    ->add_option("--minimise", arguments->minimise,
                                                 "Instead, make what fails in this file simpler, and save it beside "

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "audit/ccd/elf_header.h"
+#include "audit/ccd/library_in_process.h"
 
 namespace noli::audit {
 namespace {
@@ -188,6 +189,7 @@ void require_ccd_library(const fs::path& library, const HostOptions& options) {
 
 LibraryAnswers ask_library(const std::optional<fs::path>& library, int kind, const std::vector<AskedQuery>& queries,
                            double tolerance, const HostOptions& options) {
+  if (options.in_process && library) return ask_in_process(*library, kind, queries, tolerance);
   return Asking(library, kind, queries, tolerance, options).run();
 }
 

@@ -10,6 +10,7 @@
 #include "tests/app/process.h"
 #include "tests/app/scene.h"
 #include "tests/app/worked_example.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noli::app_tests {
 namespace {
@@ -49,6 +50,15 @@ TEST_F(AuditStability, WhatHoldsHolds) {
   EXPECT_LT(row["points"][0]["energy_error"], 0.05);
   EXPECT_EQ(row["points"][0]["exit_code"], 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path("findings")));
+}
+
+TEST_F(AuditStability, DrawsWhatHolds) {
+  json_of(command("steps-not-allowed-contact", {"--svg", folder.path("rows.svg")}), 0);
+  const std::string svg = test::read_text(folder.path("rows.svg"));
+  EXPECT_NE(svg.find(">steps-not-allowed-contact<"), std::string::npos);
+  EXPECT_NE(svg.find(">refused<"), std::string::npos) << "fails closed at 1";
+  EXPECT_NE(svg.find("#bfe3c6"), std::string::npos) << "holds at 0.5";
+  EXPECT_EQ(svg.find("#e8a39b"), std::string::npos) << "no finding";
 }
 
 TEST_F(AuditStability, WhatIsRefusedFailsClosed) {

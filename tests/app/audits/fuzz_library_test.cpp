@@ -139,6 +139,26 @@ TEST_F(FuzzLibrary, ReplaysManyFiles) {
   EXPECT_TRUE(first.starts_with(found["reports"][0]["file"].get<std::string>() + ": ")) << first;
 }
 
+TEST_F(FuzzLibrary, CallsALibraryInItsOwnProcess) {
+  const auto file = folder.write("two-vertex-face.csv", two_queries);
+  const auto replay = [&](const std::string& library, const Words& more) {
+    return run_noli(Words{"fuzz", "queries", "--library", library, "--replay", file} + more);
+  };
+  for (const std::string& library : {mutant("none"), faulty("never_hits")}) {
+    const Process apart = replay(library, {}), within = replay(library, {"--in-process"});
+    EXPECT_EQ(within.out, apart.out);
+    EXPECT_EQ(within.exit_code, apart.exit_code);
+  }
+  EXPECT_EQ(replay(faulty("crashes"), {}).exit_code, 1) << "a finding, and noli is alive";
+  const Process killed = replay(faulty("crashes"), {"--in-process"});
+  EXPECT_EQ(killed.out, "") << "a debugger has it";
+  EXPECT_NE(killed.exit_code, 0);
+  EXPECT_NE(killed.exit_code, 1);
+  expect_refused({"fuzz", "queries", "--library", faulty("has_another_version"), "--replay", file, "--in-process"},
+                 "version");
+  expect_refused({"fuzz", "queries", "--library", mutant("none"), "--in-process"}, "--replay");
+}
+
 TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
     std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names

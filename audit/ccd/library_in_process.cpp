@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/ccd/library_in_process.h"
+
+#include <cmath>
+#include <limits>
+
+#include "audit/ccd/host/library.h"
+
+namespace noli::audit {
+
+LibraryAnswers ask_in_process(const std::filesystem::path& library, int kind, const std::vector<AskedQuery>& queries,
+                              double tolerance) {
+  HostStatus status;
+  const Library loaded = load(status, library.c_str(), false);
+  require_loaded(library, status, {});
+  LibraryAnswers result;
+  result.endings.resize(queries.size());
+  result.description = status.description.data();
+  for (AskedQuery query : queries) {  // a copy, which the library may write to
+    GivenAnswer answer{};
+    answer.time = std::numeric_limits<double>::quiet_NaN();
+    answer.code = loaded.ask(kind, query.x_t0.data(), query.x_t1.data(), tolerance, &answer.time);
+    answer.state = AnswerState::answered;
+    result.answers.push_back(answer);
+  }
+  return result;
+}
+
+}  // namespace noli::audit
