@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `manifest.json` in the folder of a run: what the folder is, of which scene and by which versions. Beside it is a copy
-// of the scene file, byte for byte. FORMAT.md lists the members.
+// `manifest.json` in the folder of a run: what the folder is, of which scene and by which versions. Beside it is the
+// scene. FORMAT.md lists the members.
 //
 // What is not in it: times of day, names of machines, numbers of threads. Those go to the log (run_log.h).
 #pragma once
