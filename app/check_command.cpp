@@ -15,6 +15,7 @@
 #include "certify/runs/run_log_facts.h"
 #include "report/input_report.h"
 #include "trajectory/blocks/run_file.h"
+#include "trajectory/formats/frame_names.h"
 #include "trajectory/text.h"
 
 namespace noli::app {
@@ -159,9 +160,8 @@ ExitCode run(const CheckArguments& arguments) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
   const fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
-  const OrderedFrames ordered =
-      order_frames(folder ? arguments.files : std::vector<fs::path>(arguments.files.begin() + 1, arguments.files.end()),
-                   arguments.order);
+  const OrderedFrames ordered = order_frames(
+      folder ? arguments.files : named_frames({arguments.files.begin() + 1, arguments.files.end()}), arguments.order);
   const std::vector<fs::path>& trajectory = ordered.frames;
   if (!fs::exists(proof)) {
     const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";

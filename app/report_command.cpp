@@ -24,6 +24,7 @@
 #include "report/report_verdict.h"
 #include "trajectory/formats/base64.h"
 #include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
@@ -67,7 +68,7 @@ struct Inputs {
 
 Inputs sorted(const std::vector<fs::path>& paths) {
   Inputs inputs;
-  for (const fs::path& path : paths) {
+  for (const fs::path& path : named_frames(paths)) {
     const std::string end = extension_of(path);
     if (fs::is_directory(path)) {
       if (inputs.run) throw UsageError(path.string() + ": expected one run at most");
@@ -76,7 +77,7 @@ Inputs sorted(const std::vector<fs::path>& paths) {
       inputs.results.push_back(path);
     } else if (end == ".svg") {
       inputs.pictures.push_back(path);
-    } else if (end == ".ply" || end == ".obj") {
+    } else if (is_frame_name(path)) {
       inputs.frames.push_back(path);
     } else {
       const std::string advice = conversion_advice(path);

@@ -30,6 +30,7 @@
 #include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
+#include "trajectory/formats/frame_names.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -49,8 +50,9 @@ constexpr const char* verify_footer =
     "run.\n"
     "Examples:\n"
     "  noli verify before.ply after.ply\n"
-    "  noli verify cloth_*.obj --order natural       cloth_2 before cloth_10, unlike in a shell\n"
-    "  noli verify frames/*.obj --keep-going --json result.json\n"
+    "  noli verify 'cloth_*.obj'                     in quotes: cloth_2 before cloth_10\n"
+    "  noli verify frames --json result.json         all frames in a folder\n"
+    "  noli verify frames/%04d.ply                   or @list.txt, which names the files\n"
     "  noli verify a.ply b.ply --proof ab.noli       anybody can check it: noli check ab.noli a.ply b.ply\n"
     "  noli verify rest.ply --static                 does this mesh intersect itself?\n"
     "  noli verify a.ply b.ply --json - | jq .first\n"
@@ -225,19 +227,6 @@ void require_there(const std::vector<std::filesystem::path>& frames) {
   throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
 }
 
-/// A folder of frames is no run.
-void require_no_frames_inside(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (std::filesystem::exists(trajectory_path(folder), error)) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string ending = entry.path().extension().string();
-    if (ending != ".ply" && ending != ".obj") continue;
-    throw InputError(folder.string(), "",
-                     fmt::format("is a folder, but no run; to verify the frames in it, name them: noli verify {}",
-                                 (folder / ("*" + ending)).string()));
-  }
-}
-
 /// What goes with --reproduce, and what does not.
 void prepare_to_reproduce(VerifyRequest& request) {
   if (request.reproduce && !request.run) {
@@ -301,9 +290,9 @@ VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
+  request.frames = named_frames(request.frames);
   require_there(request.frames);
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
-  if (request.run) require_no_frames_inside(request.frames[0]);
   if (!request.run) {
     request.put_in_order();
   } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
@@ -347,7 +336,9 @@ ExitCode run(VerifyArguments& arguments) {
 /// What a first use needs.
 void add_options(CLI::App& command, VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  command.add_option("frames", request.frames, "PLY or OBJ files in the order of time, or the folder of one run")
+  command
+      .add_option("frames", request.frames,
+                  "PLY or OBJ files in the order of time; a folder of them; a pattern; or the folder of one run")
       ->required()
       ->type_name("FRAMES|RUN");
   add_order_option(command, request.order);

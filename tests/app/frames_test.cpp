@@ -61,6 +61,28 @@ class Frames : public testing::Test {
   Folder folder;
 };
 
+/// Each way to name the twelve frames gives the same answer about the same files.
+TEST_F(Frames, AreNamedByFolderPatternAndList) {
+  const Words frames = cloth_in_time();
+  std::string list;
+  for (const std::string& file : frames) list += file + '\n';
+  const Json expected = json_of(with({"verify"}, frames), 1);
+  EXPECT_EQ(expected["first"]["step"], 10);
+  for (const std::string& name : {folder.path("cloth_*.ply"), folder.path("cloth_%d.ply"),
+                                  "@" + folder.write("list.txt", list), folder.path(".")}) {
+    const Json json = json_of({"verify", name}, 1);
+    EXPECT_EQ(json["first"], expected["first"]) << name;
+    ASSERT_EQ(json["inputs"].size(), 12U) << name;
+    for (std::size_t k = 0; k < 12; ++k)
+      EXPECT_EQ(json["inputs"][k]["sha256"], expected["inputs"][k]["sha256"]) << name;
+  }
+  const std::string proof = folder.path("cloth.noli");
+  EXPECT_EQ(run_noli({"verify", folder.path("cloth_[0-8].ply"), "--proof", proof, "-q"}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", proof, folder.path("cloth_[0-8].ply")}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", proof, folder.path("cloth_[0-9].ply")}).exit_code, 3) << "one frame more";
+  refused({"verify", folder.path("shirt_*.ply")}, "matches no file");
+}
+
 TEST_F(Frames, TwelveFramesInTheOrderOfTheShell) {
   const Words verify = with({"verify"}, cloth_in_shell());
   refused(verify,

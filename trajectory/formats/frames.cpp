@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -133,10 +134,21 @@ std::string extension_of(const std::filesystem::path& path) {
   return text;
 }
 
-MeshFormat mesh_format(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
+namespace {
+
+std::optional<MeshFormat> format_of(std::string_view extension) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".obj") return MeshFormat::obj;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_frame_name(const std::filesystem::path& path) { return format_of(extension_of(path)).has_value(); }
+
+MeshFormat mesh_format(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (const auto format = format_of(extension)) return *format;
   const std::string advice = conversion_advice(path);
   throw InputError(path.string(), "",
                    fmt::format("expected a file that ends in .ply or .obj, found {}{}{}", in_quotes(extension),

@@ -88,6 +88,9 @@ std::string extension_of(const std::filesystem::path& path);
 
 enum class MeshFormat { ply, obj };
 
+/// Whether a file of this name is a frame, by its extension.
+bool is_frame_name(const std::filesystem::path& path);
+
 /// By the extension, in any case. Throws InputError for all but .ply and .obj, with conversion_advice().
 MeshFormat mesh_format(const std::filesystem::path& path);
 

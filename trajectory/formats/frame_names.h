@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames that are named together: what stands for many files becomes the files.
+//
+//   DIR            the frames in a folder, which are all of one format; not for the folder of a run
+//   shirt_*.obj    the files that match: * is any text, ? any letter, [a-c] one of those
+//   f/%04d.ply     the files with a number there; %d takes numbers without leading zeros
+//   @frames.txt    the lines of a file; paths are relative to its folder, and # begins a comment
+//
+// All but the lines of a file are sorted by the numbers in their names (noli/frames.h, FrameOrder::natural). A name
+// that is there as it stands is a file, whatever letters it has.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace noli {
+
+/// The files, in the order in which they are named. Names of files, and of folders without frames, stay. Throws
+/// InputError: nothing matches, a folder has frames of several formats, a list cannot be read or names nothing.
+std::vector<std::filesystem::path> named_frames(const std::vector<std::filesystem::path>& given);
+
+}  // namespace noli
