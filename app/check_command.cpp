@@ -9,6 +9,7 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "certify/proofs/check_frames.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
 #include "certify/runs/run_folder.h"
@@ -16,6 +17,8 @@
 #include "report/input_report.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
+#include "trajectory/formats/open_frames.h"
+#include "trajectory/stop.h"
 #include "trajectory/text.h"
 
 namespace noli::app {
@@ -153,6 +156,13 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
   return answer;
 }
 
+CheckerVerdict ask(const CheckRequest& request) {
+  if (checkers_read(request.trajectory)) return check_proof(request);
+  auto verdict = check_frames(request, *open_frames(request.trajectory));
+  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
+  return *std::move(verdict);
+}
+
 ExitCode run(const CheckArguments& arguments) {
   begin_work(arguments.time_limit);
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
@@ -178,7 +188,7 @@ ExitCode run(const CheckArguments& arguments) {
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   const CheckerVerdict verdict =
-      check_proof({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked});
+      ask({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked});
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";

@@ -23,9 +23,9 @@
 #include "report/report_run.h"
 #include "report/report_verdict.h"
 #include "trajectory/formats/base64.h"
-#include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -77,11 +77,11 @@ Inputs sorted(const std::vector<fs::path>& paths) {
       inputs.results.push_back(path);
     } else if (end == ".svg") {
       inputs.pictures.push_back(path);
-    } else if (is_frame_name(path)) {
+    } else if (holds_frames(path)) {
       inputs.frames.push_back(path);
     } else {
       const std::string advice = conversion_advice(path);
-      throw UsageError(path.string() + ": expected the folder of a run, or a file .json, .svg, .ply or .obj" +
+      throw UsageError(path.string() + ": expected the folder of a run, or a file .json, .svg, or of frames" +
                        (advice.empty() ? "" : "; " + advice));
     }
   }
@@ -194,23 +194,18 @@ class Report {
   void put_frames() {
     if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
     const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
-    if (steps.run || steps.count != inputs_.frames.size()) {
+    const auto frames = open_frames(inputs_.frames);
+    const std::size_t count = frames->count().value_or(0);
+    if (steps.run || steps.count != count) {
       throw InputError(verified_->path.string(), "",
                        fmt::format("is about {} {}, but {} frames were given", steps.count,
-                                   steps.run ? "windows of a run" : "frames", inputs_.frames.size()));
+                                   steps.run ? "windows of a run" : "frames", count));
     }
     const report::ResultInputs about(verified_->json, verified_->path);
-    FrameInputs frames(inputs_.frames);
-    for (std::size_t k = 0; k < inputs_.frames.size(); ++k) {
-      frames.look_at(k);
-      if (frames.facts()[k].looked_at) about.require_frame(k, frames.facts()[k]);
-    }
-    const ReadFrame read = [&](const fs::path&, std::size_t k) {
-      Frame frame = frames.read(k);
-      about.require_frame(k, frames.facts()[k]);
-      return frame;
-    };
-    report::report_frames(inputs_.frames, {steps.at_rest, steps.flat, read}, arguments_.limits, report_);
+    for (std::size_t k = 0; k < count; ++k) frames->look_at(k);
+    about.require_files(frames->facts());
+    report::report_frames(*frames, {steps.at_rest, steps.flat}, arguments_.limits, report_);
+    about.require_files(frames->facts());  // pipes are known now
   }
 
   void put_verdict_of_verify() {

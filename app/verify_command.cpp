@@ -22,7 +22,7 @@
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
-#include "certify/proofs/lines_pipe.h"
+#include "certify/proofs/proof_route.h"
 #include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
 #include "certify/stopwatch.h"
@@ -91,125 +91,16 @@ std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
     if (*claim == "-") throw UsageError("--claim-out -: expected the name of a file");
     files.push_back({"--claim-out", *claim});
   }
+  if (const auto& trajectory = arguments.request.trajectory) {
+    if (*trajectory == "-") throw UsageError("--trajectory -: expected the name of a file");
+    files.push_back({"--trajectory", *trajectory, true});
+  }
   if (const auto& junit = arguments.junit) {
     if (*junit == "-") throw UsageError("--junit -: expected the name of a file");
     files.push_back({"--junit", *junit});
   }
   return files;
 }
-
-/// What the prover decides when nobody wants its proof.
-class NoSink : public Sink {
-  void write(std::string_view /*bytes*/) override {}
-  void sync() override {}
-  void truncate(std::uint64_t /*size*/) override {}
-};
-
-/// The proof on its way: to a file, or to the checker at once. With a least distance it goes through a file in any
-/// case, because of a step that is nearer the proof is begun before that is known, and has to be taken back; and of a
-/// run that is being written, because how many windows there are is known at the end.
-class ProofRoute {
- public:
-  explicit ProofRoute(VerifyRequest& request) : request_(request) {
-    if (request.lines_in_no_file && request.check && request.min_distance == 0) {
-      request.lines_pipe = &lines_.emplace(request.deadline);
-    }
-    can_check_ = request.check && can_be_read_again();
-    file_ = request.proof;
-    const bool later = request.min_distance > 0 || request.follow || request.live;
-    if (!file_ && can_check_ && later) file_ = folder_.emplace().path() / "proof.noli";
-    if (file_) {
-      request.open_proof = [this](const Claim&) { return to_file(); };
-    } else if (can_check_) {
-      request.open_proof = [this](const Claim& claim) { return to_checker(claim); };
-      request.open_proof_at_once = true;
-    } else if (request.min_distance > 0) {
-      request.open_proof = [](const Claim&) { return std::make_unique<NoSink>(); };
-    }
-  }
-
-  /// Has the checker say what it thinks of a proof that is complete. What it refuses is an error of this program.
-  void check(VerifyOutcome& outcome) {
-    if (request_.check) outcome.not_checked = why_not(outcome);
-    const bool refuted = outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near;
-    const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
-    if (!request_.check || outcome.not_checked || !whole) return;
-    const Stopwatch watch;
-    if (!checker_)
-      checker_.emplace(CheckRequest{.proof = file_, .trajectory = trajectory(), .asked = fields_of(outcome.claim)});
-    if (lines_) lines_->close();
-    const auto verdict = checker_->finish();
-    outcome.check_seconds = watch.seconds();
-    if (!verdict) return stopped(outcome);
-    outcome.checked = first_line(verdict->words);
-    if (verdict->code != (refuted ? 1 : 0)) {
-      throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
-                               *outcome.checked);
-    }
-    require_claim(outcome.claim, verdict->words, refuted);
-    outcome.checker = version_of(Checker::plain);
-    if (!refuted) outcome.verdict = Verdict::proved;
-  }
-
- private:
-  /// The checker has looked at the claim that was asked, and at no other.
-  static void require_claim(const Claim& asked, const std::string& words, bool refuted) {
-    const char* const word = refuted ? "refuted" : "accepted";
-    const auto checked = claim_of_words(words);
-    if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
-    if (const auto other = difference(asked, *checked, refuted)) {
-      throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
-    }
-  }
-
-  std::vector<std::filesystem::path> trajectory() const {
-    if (lines_) return {lines_->path()};
-    return trajectory_for_checker(request_.frames);
-  }
-
-  bool can_be_read_again() const {
-    if (request_.lines_in_no_file) return lines_.has_value();  // it is read once, as it is made
-    std::error_code error;
-    return std::ranges::all_of(trajectory(), [&](const auto& path) {
-      return !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);
-    });
-  }
-
-  std::unique_ptr<Sink> to_file() const {
-    std::filesystem::remove(*file_);
-    return std::make_unique<FileSink>(*file_, FileSink::Open::create);
-  }
-  std::unique_ptr<Sink> to_checker(const Claim& claim) {
-    checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
-    return std::make_unique<CheckerSink>(*checker_);
-  }
-
-  std::optional<std::string> why_not(const VerifyOutcome& outcome) const {
-    if (!can_check_ && request_.lines_in_no_file)
-      return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
-    if (!can_check_) return "what is verified is no file that could be read twice";
-    if (outcome.no_proof) return "no proof was found";
-    if (outcome.open_window && !lines_)
-      return "the run ends within a window; resume it first (noli simulate ... --resume)";
-    return std::nullopt;
-  }
-
-  static void stopped(VerifyOutcome& outcome) {
-    const bool by_user = interrupted().load(std::memory_order_relaxed);
-    (by_user ? outcome.interrupted : outcome.out_of_time) = true;
-    outcome.not_checked = by_user ? "interrupted" : "time limit";
-    if (outcome.verdict != Verdict::no_contact) return;
-    outcome.verdict = Verdict::undecided;
-    outcome.complete = false;
-  }
-
-  VerifyRequest& request_;
-  bool can_check_ = false;
-  std::optional<ScratchFolder> folder_;
-  std::optional<std::filesystem::path> file_;
-  std::optional<LinesPipe> lines_;  ///< of a run that is reproduced
-  std::optional<CheckerProcess> checker_;
-};
 
 /// --merge-identical reads them twice.
 void require_files(const std::vector<std::filesystem::path>& frames) {
@@ -295,11 +186,14 @@ ExitCode run(VerifyArguments& arguments) {
   request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
   if (!request.run) {
     request.put_in_order();
-  } else if (request.order != FrameOrder::checked || request.polygons != PolygonRule::fan) {
+  } else if (request.order != FrameOrder::checked || request.reading.polygons != PolygonRule::fan) {
     throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
   }
   if (request.follow && !request.run) {
     throw UsageError("--follow: is for a run of `noli simulate`; expected its folder, found frames");
+  }
+  if (request.trajectory && request.run) {
+    throw UsageError("--trajectory: is for frames; a run has its trajectory.blocks");
   }
   request.live = request.run && is_locked(request.frames[0]);
   prepare_to_reproduce(request);
@@ -347,6 +241,10 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   command.add_flag("--first-only", request.first_only, "Stop at any contact; counts are then lower bounds")
       ->excludes(keep_going);
   command.add_option("--proof", request.proof, "Write the proof to this file, for `noli check`")->type_name("OUT");
+  command
+      .add_option("--trajectory", request.trajectory,
+                  "Write all frames to this block file, which checkers read: numbers bit for bit")
+      ->type_name("OUT");
   command.add_flag_callback(
       "--no-check", [&request] { request.check = false; },
       "Skip the checker, and the proof unless --proof asks for it: the verdict is then no_contact, not proved");
@@ -404,7 +302,7 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
       ->check(is_dimension())
       ->type_name("2|3")
       ->group(group::question);
-  add_polygons_option(command, request.polygons);
+  add_polygons_option(command, request.reading.polygons);
   command
       .add_option("--claim-out", arguments.claim_out,
                   "Write the claim to this file; with `noli check --claim` no proof can claim less")

@@ -16,7 +16,8 @@
 #include "bench/sheets.h"
 #include "bench/textbook.h"
 #include "proofs/prover/verifier.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_sequence.h"
 
 namespace noli::bench {
 namespace {
@@ -34,7 +35,8 @@ double verify_seconds(const Mesh& mesh, std::span<const Position> x_t0, std::spa
 }
 
 double verify_pair(const FramePair& pair, int threads) {
-  FrameSequence sequence({pair.path_t0, pair.path_t1});
+  FrameInputs frames({pair.path_t0, pair.path_t1});
+  FrameSequence sequence(frames);
   sequence.next();
   return verify_seconds(sequence.mesh(), sequence.x_t0(), sequence.x_t1(), threads);
 }

@@ -10,8 +10,8 @@
 #include <noli/errors.h>
 #include <noli/verify.h>
 #include "certify/not_compared.h"
-#include "certify/proofs/lines_pipe.h"
 #include "certify/proofs/prove_run.h"
+#include "certify/proofs/trajectory_pipe.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
@@ -245,7 +245,7 @@ class RunVerification : private Verification {
   }
 
   void prove(RunWindow& window, const WindowResult& result) {
-    if (witness_sought_ && request_.lines_pipe != nullptr) return;  // the checker reads no further
+    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
     const Stopwatch watch;
     give_lines(window);
     if (!proof_) {
@@ -264,12 +264,12 @@ class RunVerification : private Verification {
 
   /// World lines that are in no file: the checker reads them on their way, window by window.
   void give_lines(RunWindow& window) {
-    if (request_.lines_pipe == nullptr) return;
-    request_.lines_pipe->drained();
+    if (request_.trajectory_pipe == nullptr) return;
+    request_.trajectory_pipe->drained();
     if (!lines_) {
       RunScene scene = reader_.scene();
       scene.header.record = RecordMode::full;
-      lines_.emplace(request_.lines_pipe->sink(), scene);
+      lines_.emplace(request_.trajectory_pipe->sink(), scene);
     }
     lines_->append_window({window.index, *window.lines, window.velocities, window.state, {}});
     window.group_hash = lines_->open_window_hash();

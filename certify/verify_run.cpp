@@ -14,12 +14,15 @@
 #include <noli/sequence.h>
 #include "certify/groups.h"
 #include "certify/proofs/prove_frames.h"
+#include "certify/proofs/trajectory_pipe.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
+#include "trajectory/blocks/frames_file.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frame_order.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/merge.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
@@ -33,6 +36,7 @@ Motion motion_of(const VerifyRequest& request) { return request.constant_motion 
 /// for the writer of a pipe, and take its only reader away from it.
 void require_readable(const std::vector<std::filesystem::path>& paths) {
   for (const auto& path : paths) {
+    if (path == "-") continue;
     std::error_code error;
     if (std::filesystem::is_directory(path, error) || ::access(path.c_str(), R_OK) != 0) {
       throw InputError(path.string(), "", "cannot be opened; expected a PLY or OBJ file");
@@ -44,10 +48,10 @@ class SequenceVerification : private Verification {
  public:
   explicit SequenceVerification(const VerifyRequest& request)
       : Verification(request),
-        inputs_(request.frames, request.polygons),
-        sequence_(request.frames, motion_of(request), inputs_.reader()) {
+        source_(open_frames(request.frames, request.reading)),
+        sequence_(*source_, motion_of(request)) {
     require_readable(request.frames);
-    outcome_.steps_total = sequence_.step_count();
+    outcome_.steps_total = sequence_.step_count().value_or(0);
   }
 
   VerifyOutcome operator()() {
@@ -70,18 +74,54 @@ class SequenceVerification : private Verification {
       if (sequence_.step() == 0) begin();
       require_plane();
       note_rest();
+      write_frames();
       verify();
       if (enough()) break;
     }
+    write_other_frames();
+  }
+
+  /// Whatever the verdict, the file of --trajectory has all frames.
+  void write_other_frames() {
+    if (!request_.trajectory) return;
+    while (!stopped() && read_next(sequence_)) write_frames();
+    if (trajectory_) trajectory_->finish();
+  }
+
+  /// Those that were read for this step.
+  void append_frames(FramesWriter& writer) const {
+    const bool both = sequence_.step() == 0 && !request_.constant_motion;
+    if (both) writer.append(sequence_.x_t0());
+    writer.append(sequence_.x_t1());
+  }
+
+  void write_frames() {
+    if (!request_.trajectory) return;
+    if (!trajectory_) {
+      std::filesystem::remove(*request_.trajectory);
+      trajectory_.emplace(std::make_unique<FileSink>(*request_.trajectory, FileSink::Open::create), sequence_.mesh());
+    }
+    append_frames(*trajectory_);
+  }
+
+  /// To a checker that reads them on their way. It reads those of a step when the proof comes to it.
+  void give_frames() {
+    TrajectoryPipe* const pipe = request_.trajectory_pipe;
+    const bool wanted = !outcome_.touches() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
+    if (pipe == nullptr || !wanted) return;
+    if (given_) pipe->drained();
+    if (!given_) given_.emplace(pipe->sink(), sequence_.mesh());
+    append_frames(*given_);
   }
 
   /// A frame of another mesh is noticed before the first step is decided.
   void look_at_all() {
     const Stopwatch watch;
     try {
-      for (std::size_t k = 0; k < request_.frames.size() && !stopped(); ++k) {
-        inputs_.look_at(k);
-        tell("look", static_cast<double>(k + 1) / static_cast<double>(request_.frames.size()));
+      const std::size_t count = source_->count().value_or(0);
+      for (std::size_t k = 0; k < count && !stopped(); ++k) {
+        source_->look_at(k);
+        tell("look", static_cast<double>(k + 1) / static_cast<double>(count));
       }
     } catch (const Stopped&) {
       stopped();
@@ -105,7 +145,7 @@ class SequenceVerification : private Verification {
 
   /// The first pass of --merge-identical.
   void find_classes() {
-    FrameSequence frames(request_.frames, Motion::constant, inputs_.reader());
+    FrameSequence frames(*source_, Motion::constant);
     while (!stopped() && read_next(frames)) {
       if (!classes_) classes_.emplace(frames.mesh().vertex_count);
       classes_->refine(frames.x_t0());
@@ -126,7 +166,7 @@ class SequenceVerification : private Verification {
       outcome_.merged_vertices = classes_->merged_count();
     }
     if (mesh.cell_count() == 0) {
-      throw InputError(sequence_.path_t0().string(), "",
+      throw InputError(sequence_.name_t0(), "",
                        "no faces, edges or points; expected something that can touch (see --points)");
     }
     outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
@@ -161,15 +201,15 @@ class SequenceVerification : private Verification {
 
   void require_plane() const {
     if (request_.dimension || outcome_.dimension == 3 || in_plane()) return;
-    throw InputError(sequence_.path_t1().string(), "",
+    throw InputError(sequence_.name_t1(), "",
                      "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
   }
 
   /// Two equal frames in a row are usually a mistake of whoever wrote them.
   void note_rest() {
     if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
-    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.path_t0().string(),
-                                   sequence_.path_t1().string(), sequence_.step() + 1));
+    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.name_t0(),
+                                   sequence_.name_t1(), sequence_.step() + 1));
   }
 
   const Exclusions* exclusions() const { return groups_ ? &groups_->exclusions : nullptr; }
@@ -186,7 +226,8 @@ class SequenceVerification : private Verification {
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     options.progress = [this](double share) {
-      tell("verify", (static_cast<double>(sequence_.step()) + share) / static_cast<double>(outcome_.steps_total));
+      const double steps = static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1));
+      tell("verify", std::min(1.0, (static_cast<double>(sequence_.step()) + share) / steps));
     };
     return options;
   }
@@ -195,6 +236,7 @@ class SequenceVerification : private Verification {
     const bool by_verifier = request_.open_proof && verifier_proves(request_);
     const bool wanted = !outcome_.touches() && !outcome_.no_proof;
     if (by_verifier && request_.open_proof_at_once) begin_proof();
+    give_frames();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
     outcome_.complete = result.complete;
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
@@ -226,6 +268,8 @@ class SequenceVerification : private Verification {
   void prove(const StepResult& result) {
     const Stopwatch watch;
     begin_proof();
+    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
+    witness_sought_ = witness_sought_ || result.touches();
     if (!result.touches() && outcome_.touches()) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
@@ -255,16 +299,24 @@ class SequenceVerification : private Verification {
 
   void conclude() {
     stopped();
+    if (!sequence_.step_count()) count_steps();
     set_verdict(outcome_.steps.size() == outcome_.steps_total);
     if (verifier_) list_contacts(verifier_->mesh(), BodyNames());
     put_notes();
-    outcome_.inputs = inputs_.take_facts();
+    outcome_.inputs = source_->facts();
+  }
+
+  /// Of a source that does not say how many frames it has.
+  void count_steps() {
+    outcome_.steps_total = outcome_.steps.size();
+    outcome_.claim.steps = outcome_.steps_total;
+    if (!request_.constant_motion) outcome_.claim.to = static_cast<double>(outcome_.steps_total);
   }
 
   void put_notes() {
     outcome_.notes = request_.order_notes;
     append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
-    for (const std::string& note : inputs_.notes()) outcome_.notes.push_back(note);
+    for (const std::string& note : source_->notes()) outcome_.notes.push_back(note);
     const bool contact =
         outcome_.initial_reports.empty() && outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
     const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
@@ -276,17 +328,30 @@ class SequenceVerification : private Verification {
     }
   }
 
-  FrameInputs inputs_;
-  FrameSequence sequence_;  ///< reads by inputs_
+  std::unique_ptr<FrameSource> source_;
+  FrameSequence sequence_;  ///< reads from source_
   std::optional<IdenticalVertices> classes_;
   std::optional<Groups> groups_;  ///< with --ignore
   std::optional<SequenceVerifier> verifier_;
   std::unique_ptr<StepProofs> proof_;
   std::optional<WindowVerifier> prover_;  ///< set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
+  bool witness_sought_ = false;
+  std::optional<FramesWriter> trajectory_, given_;  ///< --trajectory, and what the checker reads on its way
 };
 
 }  // namespace
+
+std::uint64_t VerifyOutcome::frame_count() const {
+  std::uint64_t count = 0;
+  for (const FrameFacts& facts : inputs) count += facts.frames;
+  return count;
+}
+
+std::string VerifyOutcome::frame_name(std::size_t k) const {
+  if (inputs.size() == 1 && inputs[0].frames > 1) return fmt::format("{}[{}]", inputs[0].file, k);
+  return k < inputs.size() ? inputs[k].file : fmt::format("frame {}", k);
+}
 
 void VerifyRequest::put_in_order() {
   OrderedFrames in_order = order_frames(std::move(frames), order);

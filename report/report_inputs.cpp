@@ -38,7 +38,13 @@ ResultInputs::ResultInputs(const Json& result, const std::filesystem::path& path
 
 void ResultInputs::refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
 
-void ResultInputs::require_frame(std::size_t k, const FrameFacts& read) const {
+void ResultInputs::require_files(const std::vector<FrameFacts>& read) const {
+  for (std::size_t k = 0; k < read.size(); ++k) {
+    if (read[k].looked_at) require_file(k, read[k]);
+  }
+}
+
+void ResultInputs::require_file(std::size_t k, const FrameFacts& read) const {
   const Json input = k < inputs_.size() ? inputs_.at(k) : Json();
   const std::string expected = member(input, "sha256"), found = hex(read.sha256);
   if (expected == found) return;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "certify/json.h"
 #include "trajectory/formats/frame_look.h"
@@ -16,13 +17,14 @@ class ResultInputs {
   /// Throws InputError when the result does not name the hashes of what it is about, as those of older versions.
   ResultInputs(const Json& result, const std::filesystem::path& path);
 
-  /// Throws InputError unless frame k of the result, from 0, has the bytes that were read.
-  void require_frame(std::size_t k, const FrameFacts& read) const;
+  /// Throws InputError unless each file that was looked at has the bytes of the input with the same number.
+  void require_files(const std::vector<FrameFacts>& read) const;
 
   /// Throws InputError unless the files of the run are those of the result; ReadInterrupted.
   void require_run(const std::filesystem::path& run) const;
 
  private:
+  void require_file(std::size_t k, const FrameFacts& read) const;
   [[noreturn]] void refuse(const std::string& what) const;
 
   const std::filesystem::path& path_;

@@ -18,7 +18,7 @@
 #include "report/report_scene.h"
 #include "report/report_verdict.h"
 #include "trajectory/blocks/run_file.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 
@@ -201,21 +201,19 @@ void report_run(const std::filesystem::path& run, const ReportLimits& limits, Re
   Run(run, limits).put(report);
 }
 
-void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
-                   const ReportLimits& limits, ReportPage& report) {
+void report_frames(FrameSource& frames, const ReportedFrames& how, const ReportLimits& limits, ReportPage& report) {
   const bool at_rest = how.at_rest;
-  Frame first = how.read(frames.front(), 0);
-  MotionPacker packer(first.mesh.vertex_count, limits.most_bytes);
-  if (!packer.skip()) packer.add(0, first.positions);
+  FrameSequence sequence(frames, Motion::constant);
+  if (!sequence.next()) throw InputError("frames", "", "there are none");
+  const Mesh mesh = sequence.mesh();
+  MotionPacker packer(mesh.vertex_count, limits.most_bytes);
   std::vector<double> ends;
-  if (at_rest) ends.push_back(0.5);
-  for (std::size_t k = 1; k < frames.size(); ++k) {
-    stop_if_interrupted(frames[k]);
-    const Frame frame = how.read(frames[k], k);
-    require_same_mesh(first.mesh, frames.front(), frame.mesh, frames[k]);
-    if (!packer.skip()) packer.add(static_cast<double>(k), frame.positions);
-    ends.push_back(static_cast<double>(k) + (at_rest ? 0.5 : 0));
-  }
+  do {
+    stop_if_interrupted(sequence.name_t0());
+    const auto k = static_cast<double>(sequence.step());
+    if (!packer.skip()) packer.add(k, sequence.x_t0());
+    if (at_rest || k > 0) ends.push_back(k + (at_rest ? 0.5 : 0));
+  } while (sequence.next());
   PackedFrames packed = packer.pack();
   std::string note = at_rest ? "Each frame was decided by itself, at rest."
                              : "Between these frames every vertex moves on a straight line: that motion was decided.";
@@ -223,8 +221,8 @@ void report_frames(const std::vector<std::filesystem::path>& frames, const Repor
   note += " Positions are rounded for the picture.";
   const bool flat = how.flat || packed.least[2] == packed.greatest[2];
   put_scene({flat ? 2 : 3,
-             first.mesh,
-             {{"mesh", 0, first.mesh.vertex_count, false}},
+             mesh,
+             {{"mesh", 0, mesh.vertex_count, false}},
              at_rest ? "(frame)" : "steps",
              at_rest ? -0.5 : 0,
              ends,

@@ -7,10 +7,9 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "report/report_page.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_source.h"
 
 namespace noli::report {
 
@@ -27,11 +26,9 @@ void report_run(const std::filesystem::path& run, const ReportLimits& limits, Re
 struct ReportedFrames {
   bool at_rest = false;  ///< each by itself, or moving from one to the next
   bool flat = false;     ///< in two dimensions
-  ReadFrame read;        ///< how each is read
 };
 
 /// The same of frames; fills scene alone. Throws InputError.
-void report_frames(const std::vector<std::filesystem::path>& frames, const ReportedFrames& how,
-                   const ReportLimits& limits, ReportPage& report);
+void report_frames(FrameSource& frames, const ReportedFrames& how, const ReportLimits& limits, ReportPage& report);
 
 }  // namespace noli::report

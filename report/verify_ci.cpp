@@ -44,8 +44,8 @@ std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome,
 }
 
 std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
-  const std::string head =
-      fmt::format("    <testcase classname=\"noli.verify\" name=\"{}\"", escaped_markup(step_name(request, k + 1)));
+  const std::string head = fmt::format("    <testcase classname=\"noli.verify\" name=\"{}\"",
+                                       escaped_markup(step_name(request, outcome, k + 1)));
   const std::string fault = k < outcome.steps.size() ? fault_of(request, outcome, k) : "";
   if (!fault.empty()) {
     return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head,
@@ -105,7 +105,7 @@ std::string verify_annotations(const VerifyRequest& request, const VerifyOutcome
       continue;
     }
     ++written;
-    lines += annotation("error", "noli: " + step_name(request, k + 1), fault);
+    lines += annotation("error", "noli: " + step_name(request, outcome, k + 1), fault);
   }
   if (left_out > 0) lines += annotation("warning", "noli", fmt::format("{} more steps have contacts", left_out));
   if (written > 0) return lines;

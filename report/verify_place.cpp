@@ -34,7 +34,7 @@ class Place {
   std::string looked_at() const {
     std::string steps = fmt::format("{} {}", outcome_.steps_total, steps_word(request_, outcome_.steps_total));
     if (request_.constant_motion) return steps;
-    if (!request_.run) return fmt::format("{} frames, {}", request_.frames.size(), steps);
+    if (!request_.run) return fmt::format("{} frames, {}", outcome_.frame_count(), steps);
     const RunEnding& ending = *outcome_.ending;
     if (ending.whole() || !ending.duration) return fmt::format("{}, {} s", steps, digits4(ending.time));
     const std::string of = ending.windows_total
@@ -63,13 +63,13 @@ class Place {
   std::string contact() const {
     if (outcome_.first && !intersects_first(outcome_)) {
       const ListedContact& first = *outcome_.first;
-      return fmt::format("{}  t = {}{}  {}{}", step_name(request_, first.step), digits4(first.time),
+      return fmt::format("{}  t = {}{}  {}{}", step_name(request_, outcome_, first.step), digits4(first.time),
                          request_.run ? " s" : "", who_and_where(first, outcome_.dimension), rests_on());
     }
     if (outcome_.initial_reports.empty()) return "from the beginning" + rests_on();
     const auto& [number, pair] = outcome_.initial_reports.front();
-    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step_name(request_, number), pair.first_cell,
-                       pair.second_cell, rests_on());
+    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step_name(request_, outcome_, number),
+                       pair.first_cell, pair.second_cell, rests_on());
   }
 
   /// What the checker's witness rests on that is not asked by default: "; z does not count".
@@ -82,8 +82,8 @@ class Place {
     const TooNear& pair = outcome_.near->pair;
     const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
     return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}",
-                       step_name(request_, outcome_.near->step), digits4(pair.time), pair.first_cell, pair.second_cell,
-                       digits17(request_.min_distance), ring);
+                       step_name(request_, outcome_, outcome_.near->step), digits4(pair.time), pair.first_cell,
+                       pair.second_cell, digits17(request_.min_distance), ring);
   }
 
   const VerifyRequest& request_;
@@ -108,9 +108,11 @@ std::string plural(std::uint64_t count, const char* thing) {
 }
 
 /// "c.ply → d.ply", "c.ply" for a frame at rest, nothing for a window.
-std::string step_frames(const VerifyRequest& request, std::size_t number) {
+std::string step_frames(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number) {
   if (request.run) return "";
-  const auto name = [&](std::size_t frame) { return on_one_line(request.frames[frame].filename().string()); };
+  const auto name = [&](std::size_t frame) {
+    return on_one_line(std::filesystem::path(outcome.frame_name(frame)).filename().string());
+  };
   return request.constant_motion ? name(number - 1) : fmt::format("{} → {}", name(number - 1), name(number));
 }
 
@@ -127,8 +129,8 @@ const char* why_incomplete(const VerifyOutcome& outcome) {
   return outcome.out_of_time ? "time limit" : "first contact only";
 }
 
-std::string step_name(const VerifyRequest& request, std::size_t number) {
-  const std::string frames = step_frames(request, number);
+std::string step_name(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number) {
+  const std::string frames = step_frames(request, outcome, number);
   return fmt::format("{} {}{}", step_word(request), number, frames.empty() ? "" : " (" + frames + ")");
 }
 

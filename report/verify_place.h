@@ -16,10 +16,10 @@ const char* step_word(const VerifyRequest& request);
 const char* steps_word(const VerifyRequest& request, std::size_t count);
 
 /// "c.ply → d.ply", "c.ply" for a frame at rest, nothing for a window; `number`: from 1.
-std::string step_frames(const VerifyRequest& request, std::size_t number);
+std::string step_frames(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number);
 
 /// "step 3 (c.ply → d.ply)", "frame 3 (c.ply)", "window 3".
-std::string step_name(const VerifyRequest& request, std::size_t number);
+std::string step_name(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number);
 
 /// "1 pair", "2 pairs"
 std::string plural(std::uint64_t count, const char* thing);

@@ -46,7 +46,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json json = {
       {"claim", claimed(request)},
-      {request.run ? "windows" : "frames", request.run ? outcome.steps_total : request.frames.size()},
+      {request.run ? "windows" : "frames", request.run ? outcome.steps_total : outcome.frame_count()},
       {"motion", motion_of(request)},
       {"time", request.run ? "seconds; each window, both ends included" : "[0, 1] in each step, both ends included"},
       {"numbers", "the doubles that the files give, taken exactly; real arithmetic on them, no tolerance"},
@@ -72,7 +72,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
   };
   if (!request.run) {
     json["order"] = request.ordered;
-    json["polygons"] = polygons_text(request.polygons);
+    json["polygons"] = polygons_text(request.reading.polygons);
   }
   json["notes"] = outcome.notes;
   return json;

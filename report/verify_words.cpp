@@ -88,7 +88,7 @@ class Words {
     std::vector<std::size_t> rows;
     for (std::size_t k = 0; k < outcome_.steps.size(); ++k) {
       if (outcome_.steps[k].contact_count() == 0) continue;
-      frames_width = std::max(frames_width, columns(step_frames(request_, k + 1)));
+      frames_width = std::max(frames_width, columns(step_frames(request_, outcome_, k + 1)));
       rows.push_back(k);
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -98,7 +98,7 @@ class Words {
 
   std::string row(std::size_t k, std::size_t frames_width) const {
     const StepCounts& step = outcome_.steps[k];
-    const std::string frames = step_frames(request_, k + 1);
+    const std::string frames = step_frames(request_, outcome_, k + 1);
     const std::string gap = frames.empty() ? "" : "  " + frames + std::string(frames_width - columns(frames), ' ');
     return fmt::format("  {} {:>4}{}  {:>7}  {}\n", step_word(request_), k + 1, gap, step.contact_count(),
                        how_it_begins(step));
@@ -173,10 +173,11 @@ class Words {
   }
 
   std::string files() const {
-    std::string first = on_one_line(request_.frames.front().string());
-    if (request_.frames.size() == 1) return first;
-    return fmt::format("{} frames, {} to {}", request_.frames.size(), first,
-                       on_one_line(request_.frames.back().string()));
+    const std::string first = on_one_line(request_.frames.front().string());
+    const std::string last = on_one_line(request_.frames.back().string());
+    if (request_.run || outcome_.frame_count() < 2) return first;
+    if (request_.frames.size() == 1) return fmt::format("{} frames in {}", outcome_.frame_count(), first);
+    return fmt::format("{} frames, {} to {}", outcome_.frame_count(), first, last);
   }
 
   void ending() {

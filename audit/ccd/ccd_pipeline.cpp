@@ -20,6 +20,7 @@
 #include "proofs/prover/verifier.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
 
 namespace noli::audit {
@@ -378,7 +379,7 @@ PipelineOutcome audit_pipeline(const PipelineRequest& request) {
   for (const fs::path& library : request.libraries) require_ccd_library(library, request.host);
   FrameInputs inputs({request.before, request.after}, request.polygons);
   for (std::size_t k = 0; k < 2; ++k) inputs.look_at(k);
-  FrameSequence frames({request.before, request.after}, Motion::linear, inputs.reader());
+  FrameSequence frames(inputs);
   frames.next();
   PipelineOutcome outcome = PipelineRun(request).run(frames.mesh(), frames.x_t0(), frames.x_t1());
   outcome.inputs = inputs.facts();

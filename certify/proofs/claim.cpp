@@ -210,6 +210,7 @@ std::vector<std::string> fields_of(const Claim& claim) {
   std::vector<std::string> fields;
   for (const auto& [key, value] : values(claim)) {
     if (key == "from" || key == "to") continue;
+    if (key == "steps" && claim.steps == 0) continue;  // not known yet: all that the motion has
     if (key == "ring" && claim.distance == 0) continue;
     // Of a run the pairs are those of its scene, by default; they may be more than a command line takes.
     if (key == "excluded" && claim.motion == "run") continue;

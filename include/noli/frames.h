@@ -51,6 +51,12 @@ enum class PolygonRule {
   refuse  ///< a polygon is an error
 };
 
+/// How frames are read.
+struct FrameReading {
+  PolygonRule polygons = PolygonRule::fan;
+  std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
+};
+
 /// What was read of a frame.
 struct FrameFacts {
   std::string file;                       ///< its name, as given; a path would take several times the memory
@@ -62,6 +68,7 @@ struct FrameFacts {
   std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed
   std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k
   std::uint64_t decimals = 0;          ///< of such text
+  std::uint64_t frames = 1;            ///< how many the file has
 };
 
 }  // namespace noli

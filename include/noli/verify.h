@@ -38,7 +38,7 @@
 
 namespace noli {
 
-class LinesPipe;
+class TrajectoryPipe;
 class Sink;
 
 struct VerifyRequest {
@@ -46,7 +46,7 @@ struct VerifyRequest {
   FrameOrder order = FrameOrder::checked;     ///< how they came to be in it; put_in_order() does it
   std::string ordered;                        ///< the same in words
   std::vector<std::string> order_notes;
-  PolygonRule polygons = PolygonRule::fan;
+  FrameReading reading;
   bool run = false;              ///< it is a run: steps are its windows, times are seconds
   std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
   int threads = 0;               ///< 0: all there are
@@ -68,16 +68,17 @@ struct VerifyRequest {
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, what is settled by then is the outcome
   /// Called with what is done, and the share of it in [0, 1]: "look", then "verify". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
-  std::optional<std::filesystem::path> proof;  ///< the file where the user wants it, as reports name it
-  bool check = true;                           ///< the checker looks at the proof: reports say whether it did
+  std::optional<std::filesystem::path> trajectory;  ///< a file that all frames are written to, for checkers
+  std::optional<std::filesystem::path> proof;       ///< the file where the user wants it, as reports name it
+  bool check = true;                                ///< the checker looks at the proof: reports say whether it did
   /// Where the proof of a claim is written to, called once at most; empty: none is made. See proof_to_file().
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
   /// Call it before the first step of frames is decided, so that whoever reads the proof looks at them meanwhile.
   bool open_proof_at_once = false;
 
   // For `noli verify` itself.
-  bool lines_in_no_file = false;    ///< of a run that is reproduced: it recorded frames alone
-  LinesPipe* lines_pipe = nullptr;  ///< on which the checker reads its world lines then; nothing: nobody does
+  bool lines_in_no_file = false;              ///< of a run that is reproduced: it recorded frames alone
+  TrajectoryPipe* trajectory_pipe = nullptr;  ///< on which the checker reads the motion; nothing: nobody does
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
@@ -180,6 +181,9 @@ struct VerifyOutcome {
   std::vector<FrameFacts> inputs;                   ///< what was looked at: frames in the order of time
   std::vector<std::string> notes;                   ///< what to know of it, a line each
 
+  /// Of frames: how many there are, as far as is known, and what messages call the k-th.
+  std::uint64_t frame_count() const;
+  std::string frame_name(std::size_t k) const;
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
   /// Whether it is time to stop, for who asked or for the time limit; notes which.

@@ -261,13 +261,21 @@ class PlyReader {
   Frame frame_;
 };
 
-inline Frame read_frame(const std::string& path) {
+/// The last four letters of a name, in lower case.
+inline std::string ending(const std::string& path) {
   std::string end = path.substr(std::max<std::size_t>(path.size(), 4) - 4);
   for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  require(end == ".ply" || end == ".obj", path, "expected a name that ends in .ply or .obj");
+  return end;
+}
+
+/// Whether a file is one frame, by its name.
+inline bool is_frame(const std::string& path) { return ending(path) == ".ply" || ending(path) == ".obj"; }
+
+inline Frame read_frame(const std::string& path) {
+  require(is_frame(path), path, "expected a name that ends in .ply or .obj");
   Reader text(Input(path).read(std::numeric_limits<std::uint64_t>::max()), path);
   text.require(text.left() > 0, "expected a file that is not empty");
-  Frame frame = end == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));
+  Frame frame = ending(path) == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));
   tidy(frame.cells, frame.x.size());
   return frame;
 }

@@ -95,23 +95,84 @@ class Trajectory {
   Scene scene;
 };
 
+/// MESH: the number of vertices, and the cells.
+inline void read_mesh(Reader c, std::uint64_t& vertices, std::vector<Cell>& cells) {
+  vertices = c.u64();
+  c.require(vertices >= 1 && vertices <= std::uint64_t{1} << 32, "an impossible number of vertices");
+  const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    Cell cell{{}, static_cast<std::uint8_t>(3 - k)};
+    c.need(counts[k], 4u * cell.size);
+    for (std::uint64_t i = 0; i < counts[k]; ++i) {
+      for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
+      c.require(std::ranges::max(cell.v) < vertices, "a vertex that is not there is named");
+      cells.push_back(cell);
+    }
+  }
+  c.end();
+}
+
+/// Frames one after another: of PLY and OBJ files, or of one block file of frames.
+class FrameReader {
+ public:
+  explicit FrameReader(std::vector<std::string> paths) : paths_(std::move(paths)) {
+    if (paths_.size() != 1 || is_frame(paths_[0])) return;
+    file_.emplace(paths_[0], "FRMS");
+    std::uint64_t vertices = 0;
+    read_mesh(file_->expect("MESH"), vertices, mesh_.cells);
+    file_->expect_commit();
+    tidy(mesh_.cells, vertices);
+    mesh_.x.resize(vertices);
+  }
+
+  /// The next frame, if there is one. Its mesh is that of the first.
+  std::optional<Frame> next() { return file_ ? of_file() : of_paths(); }
+  bool more() { return file_ ? file_->more() : read_ < paths_.size(); }
+
+ private:
+  std::optional<Frame> of_paths() {
+    if (read_ == paths_.size()) return std::nullopt;
+    Frame frame = read_frame(paths_[read_]);
+    if (read_ == 0) mesh_ = {std::vector<Position>(frame.x.size()), frame.cells};
+    const bool same = frame.x.size() == mesh_.x.size() && frame.cells == mesh_.cells;
+    require(same, paths_[read_], "has another mesh than the frame before");
+    ++read_;
+    return frame;
+  }
+  std::optional<Frame> of_file() {
+    auto block = file_->next();
+    if (file_->ended()) return std::nullopt;
+    Reader c = file_->as("FRAM", std::move(block));
+    c.require(c.f64() == static_cast<double>(read_), "a frame has the wrong number");
+    Frame frame = mesh_;
+    for (Position& x : frame.x) x = {c.f64(), c.f64(), c.f64()};
+    c.end();
+    file_->expect_commit();
+    ++read_;
+    return frame;
+  }
+
+  std::vector<std::string> paths_;
+  std::optional<BlockFile> file_;
+  Frame mesh_;  ///< positions are not used
+  std::size_t read_ = 0;
+};
+
 /// Frames, moving or at rest.
 class Frames : public Trajectory {
  public:
-  Frames(std::vector<std::string> paths, bool rest) : paths_(std::move(paths)), rest_(rest) {
-    require(paths_.size() >= (rest ? 1 : 2), "the command line", "expected more frames");
-    now_ = read_frame(paths_[0]);
+  Frames(std::vector<std::string> paths, bool rest) : reader_(std::move(paths)), rest_(rest) {
+    auto first = reader_.next();
+    require(first && (rest || reader_.more()), "the command line", "expected more frames");
+    now_ = std::move(*first);
     scene = {3, now_.x.size(), now_.cells, {}, {}};
   }
   bool next(Motion& motion) override {
-    const std::size_t wanted = rest_ ? step_ : step_ + 1;
-    if (wanted == paths_.size()) return false;
     const std::vector<Position> before = now_.x;
-    if (wanted > 0) {
-      Frame frame = read_frame(paths_[wanted]);
-      const bool same = frame.x.size() == now_.x.size() && frame.cells == now_.cells;
-      require(same, paths_[wanted], "has another mesh than the frame before");
-      now_ = std::move(frame);
+    if (!rest_ || step_ > 0) {
+      auto frame = reader_.next();
+      if (!frame) return false;
+      now_ = std::move(*frame);
     }
     motion.t0 = rest_ ? 0 : static_cast<double>(step_);
     motion.t1 = motion.t0 + 1;
@@ -126,10 +187,10 @@ class Frames : public Trajectory {
     ++step_;
     return true;
   }
-  bool more() override { return step_ + (rest_ ? 0 : 1) < paths_.size(); }
+  bool more() override { return (rest_ && step_ == 0) || reader_.more(); }
 
  private:
-  std::vector<std::string> paths_;
+  FrameReader reader_;
   bool rest_;
   std::size_t step_ = 0;
   Frame now_;
@@ -157,7 +218,7 @@ class Run : public Trajectory {
     c.require(c.u32() == 0, "the run has recorded frames alone, which are not its motion");
     c.require(c.f64() > 0, "expected a window length above 0");
     c.end();
-    mesh();
+    read_mesh(file_.expect("MESH"), scene.vertices, scene.cells);
     label();
   }
 
@@ -186,23 +247,6 @@ class Run : public Trajectory {
   template <class T>
   static bool same_bits(const T& a, const T& b) {
     return std::bit_cast<std::array<char, sizeof a>>(a) == std::bit_cast<std::array<char, sizeof b>>(b);
-  }
-
-  void mesh() {
-    Reader c = file_.expect("MESH");
-    scene.vertices = c.u64();
-    c.require(scene.vertices >= 1 && scene.vertices <= std::uint64_t{1} << 32, "an impossible number of vertices");
-    const std::array<std::uint64_t, 3> counts = {c.u64(), c.u64(), c.u64()};
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      Cell cell{{}, static_cast<std::uint8_t>(3 - k)};
-      c.need(counts[k], 4u * cell.size);
-      for (std::uint64_t i = 0; i < counts[k]; ++i) {
-        for (std::size_t j = 0; j < cell.size; ++j) cell.v[j] = c.u32();
-        c.require(std::ranges::max(cell.v) < scene.vertices, "a vertex that is not there is named");
-        scene.cells.push_back(cell);
-      }
-    }
-    c.end();
   }
 
   void label() {

@@ -21,7 +21,7 @@
 #include "report/report_inputs.h"
 #include "report/report_results.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/formats/write_vtu.h"
 #include "trajectory/sample.h"
 #include "trajectory/write_file.h"
@@ -114,8 +114,7 @@ class ContactOf {
 
   std::filesystem::path file(std::size_t k) const {
     const Json& inputs = result_.at("inputs");
-    if (k >= inputs.size())
-      refuse(fmt::format("has a contact in step {}, but {} inputs", contact_.step, inputs.size()));
+    if (k >= inputs.size()) refuse("names no input");
     return inputs.at(k).at("file").get<std::string>();
   }
 
@@ -127,7 +126,7 @@ class ContactOf {
     return {reader.mesh(), frame.positions};
   }
 
-  Frame frame_between(const ResultInputs& about) const {
+  Frame frame_between(const ResultInputs& about) {
     if (contact_.step == 0) refuse("lists a contact in step 0");
     const std::size_t before = contact_.step - 1;
     const bool at_rest = verified_steps(result_, path_).at_rest;
@@ -142,16 +141,23 @@ class ContactOf {
     return frame;
   }
 
-  Frame frame_number(std::size_t k, const ResultInputs& about) const {
-    FrameInputs inputs({file(k)});
-    Frame frame = inputs.read(0);
-    about.require_frame(k, inputs.facts()[0]);
-    return frame;
+  Frame frame_number(std::size_t k, const ResultInputs& about) {
+    if (!frames_) {
+      std::vector<std::filesystem::path> files;
+      for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
+      frames_ = open_frames(files);
+    }
+    frames_->look_at(k);
+    std::optional<Frame> frame = frames_->read(k);
+    if (!frame) refuse(fmt::format("has a contact in step {}, but there are not so many frames", contact_.step));
+    about.require_files(frames_->facts());
+    return std::move(*frame);
   }
 
   const std::filesystem::path& path_;
   Json result_;
   Contact contact_;
+  std::unique_ptr<FrameSource> frames_;                       ///< open as soon as one is wanted
   std::optional<std::array<std::uint32_t, 2>> intersecting_;  ///< two cells, where no pair of features is chosen
 };
 

@@ -143,15 +143,6 @@ TEST_F(Verify, ListsNoMoreThanAskedButCountsAll) {
   EXPECT_NE(run_noli(with(arguments, {"-v"})).out.find("... and 1 more (--max-reports)"), std::string::npos);
 }
 
-TEST_F(Verify, TellsWhoNamesAFolderHowToNameItsFrames) {
-  const std::string frames_folder = folder.path("frames");
-  std::filesystem::create_directory(frames_folder);
-  folder.write("frames/a.ply", two_triangles(1));
-  const Process process = run_noli({"verify", frames_folder});
-  EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("name them: noli verify " + frames_folder + "/*.ply"), std::string::npos) << process.err;
-}
-
 /// Contacts that go on from step 1 do not take the room of one that begins in step 2.
 TEST_F(Verify, ListsNewContactsBesideThoseThatGoOn) {
   const auto frame = [&](const std::string& name, double resting, double falling) {

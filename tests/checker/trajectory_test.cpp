@@ -230,6 +230,58 @@ TEST(Frames, HaveTheSameMesh) {
   EXPECT_REJECTED(verdict(file, {first, folder.write("obj", "v")}), ".ply or .obj");
 }
 
+/// The groups of a block file of frames.
+std::vector<Blocks> frames_file(const Proof& proof) {
+  std::array<std::uint64_t, 4> counts = {proof.frames[0].size(), 0, 0, 0};
+  std::string cells;
+  for (const auto& cell : proof.cells) {
+    ++counts[4 - cell.size()];
+    for (const auto v : cell) cells += raw(v);
+  }
+  std::vector<Blocks> groups = {{{"MESH", raw(counts) + cells}}};
+  for (std::size_t k = 0; k < proof.frames.size(); ++k) {
+    std::string x;
+    for (const auto& p : proof.frames[k]) x += raw(p);
+    groups.push_back({{"FRAM", raw(static_cast<double>(k)) + x}});
+  }
+  return groups;
+}
+
+TEST(Frames, OfABlockFile) {
+  const Folder folder;
+  const Proof proof = two_edges();
+  const std::string file = folder.write("proof", block_file("PROF", proof.groups()));
+  const auto of = [&](const std::vector<Blocks>& groups, const std::string& content = "FRMS") {
+    return verdict(file, {folder.write("motion.frames", block_file(content, groups))});
+  };
+  EXPECT_ACCEPTED(of(frames_file(proof)));
+  Proof other = proof;
+  other.frames[1][2][0] -= 1;
+  EXPECT_REJECTED(of(frames_file(other)), "another motion");
+  other = proof;
+  other.cells = {{2, 3}, {0, 1}};
+  EXPECT_REJECTED(of(frames_file(other)), "other cells");
+  other.cells = {{0, 1}, {2, 3}, {3, 2}, {1}};
+  EXPECT_ACCEPTED(of(frames_file(other))) << "redundant cells are left out";
+  auto groups = frames_file(proof);
+  EXPECT_REJECTED(of(groups, "TRAJ"), "another content");
+  std::swap(groups[1], groups[2]);
+  EXPECT_REJECTED(of(groups), "the wrong number");
+  groups.pop_back();
+  groups[1] = frames_file(proof)[1];
+  EXPECT_REJECTED(of(groups), "more frames");
+  groups.push_back({{"FRAM", groups[1][0].second + raw(0.0)}});
+  EXPECT_REJECTED(of(groups), "the wrong number");
+  groups[2] = {{"FRAM", raw(1.0) + groups[1][0].second.substr(8) + raw(0.0)}};
+  EXPECT_REJECTED(of(groups), "expected the end");
+  groups[2] = {{"ENDP", raw(1.0)}};
+  EXPECT_REJECTED(of(groups), "expected a block FRAM");
+  groups[2] = {{"FRAM", raw(1.0) + raw(std::numeric_limits<double>::infinity())}};
+  EXPECT_REJECTED(of(groups), "finite");
+  groups[0] = {{"MESH", raw(std::uint64_t{0}) + raw(std::array<std::uint64_t, 3>{})}};
+  EXPECT_REJECTED(of(groups), "impossible number");
+}
+
 TEST(Frames, Obj) {
   const std::string vertices = "v 0 0\nv 1 0 0\r\nv +2 0 0 1\nv 3 1e-3 0 1 1 1\nv 4 0 0 1 1 1 1\n";
   const Frame frame =

@@ -36,17 +36,17 @@ std::string refusal(const Paths& frames, PolygonRule rule = PolygonRule::fan) {
 }
 
 /// All are looked at, then read.
-FrameInputs taken(const Paths& frames) {
-  FrameInputs inputs(frames);
-  for (std::size_t k = 0; k < frames.size(); ++k) inputs.look_at(k);
-  for (std::size_t k = 0; k < frames.size(); ++k) inputs.read(k);
-  return inputs;
-}
+struct Taken : FrameInputs {
+  explicit Taken(const Paths& frames) : FrameInputs(frames) {
+    for (std::size_t k = 0; k < frames.size(); ++k) look_at(k);
+    for (std::size_t k = 0; k < frames.size(); ++k) read(k);
+  }
+};
 
 TEST(FrameInputs, SaysWhatWasRead) {
   const TemporaryFolder folder;
   const auto a = folder.write("a.obj", "v 0 0 0.500000\nv 12.25 0 0\nv 0 1 0\nv 3 3 3\nf 1 2 3\np 4\n");
-  const FrameFacts obj = taken({a}).facts()[0];
+  const FrameFacts obj = Taken({a}).facts()[0];
   EXPECT_EQ(obj.file, a);
   EXPECT_EQ(obj.bytes, 55u);
   EXPECT_EQ(obj.sha256, sha256(test::read_text(a)));
@@ -54,10 +54,10 @@ TEST(FrameInputs, SaysWhatWasRead) {
   EXPECT_EQ(obj.vertices, 4u);
   EXPECT_EQ(obj.cells, 2u);
   const auto b = folder.write("b.ply", ply(1, PlyEncoding::binary_little_endian));
-  EXPECT_EQ(taken({b}).facts()[0].numbers, "float64");
-  EXPECT_EQ(taken({b}).facts()[0].vertices, 3u);
-  EXPECT_FALSE(taken({b}).facts()[0].rounded_at);
-  EXPECT_TRUE(taken({b}).notes().empty());
+  EXPECT_EQ(Taken({b}).facts()[0].numbers, "float64");
+  EXPECT_EQ(Taken({b}).facts()[0].vertices, 3u);
+  EXPECT_FALSE(Taken({b}).facts()[0].rounded_at);
+  EXPECT_TRUE(Taken({b}).notes().empty());
 }
 
 const std::string ascii_header =
@@ -74,7 +74,7 @@ std::string ascii(const std::string& type, const std::string& body) {
 TEST(FrameInputs, TextThatMayHaveBeenRoundedEarnsANote) {
   const TemporaryFolder folder;
   const auto note = [&](const std::string& name, const std::string& text) {
-    const auto notes = taken({folder.write(name, text)}).notes();
+    const auto notes = Taken({folder.write(name, text)}).notes();
     return notes.empty() ? "" : notes[0];
   };
   EXPECT_EQ(note("a.obj", "v 0.123456 0.000000\nv 1.000000 0.000000\nv 0.000000 1.000000\nf 1 2 3\n"),
@@ -97,7 +97,7 @@ TEST(FrameInputs, TheCoarsestTextOfAllCounts) {
   const TemporaryFolder folder;
   const auto a = folder.write("a.obj", "v 0.5000 0\nv 1.0000 0\nv 0 1\nf 1 2 3\n");
   const auto b = folder.write("b.obj", "v 0.50 0\nv 1.00 0\nv 0 1\nf 1 2 3\n");
-  EXPECT_EQ(taken({a, b, a}).notes()[0],
+  EXPECT_EQ(Taken({a, b, a}).notes()[0],
             "coordinates are text with 2 decimals: gaps below 5e-03 may be decided by rounding");
 }
 
@@ -108,16 +108,16 @@ TEST(FrameInputs, PolygonsEarnANote) {
              bent = folder.write("1.obj", quad + "3\nf 1 2 3 4\n");
   const auto other = folder.write("2.obj", quad + "3\nf 2 3 4 1\n");
   EXPECT_EQ(
-      taken({flat, flat}).notes().back(),
+      Taken({flat, flat}).notes().back(),
       "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 0");
   EXPECT_EQ(
-      taken({flat, bent}).notes().back(),
+      Taken({flat, bent}).notes().back(),
       "1 polygon of more than three corners is cut into fans of triangles; largest non-planarity in all frames: 3");
-  EXPECT_EQ(taken({other}).polygons(), 1u);
-  EXPECT_NE(taken({other}).non_planarity(), 3) << "another plane";
-  EXPECT_GT(taken({other}).non_planarity(), 0);
+  EXPECT_EQ(Taken({other}).polygons(), 1u);
+  EXPECT_NE(Taken({other}).non_planarity(), 3) << "another plane";
+  EXPECT_GT(Taken({other}).non_planarity(), 0);
   EXPECT_EQ(input_error([&] {
-              taken({flat, other});
+              Taken({flat, other});
             }),
             other.string() + ": face 0 has vertices [1, 2, 3], but " + flat.string() +
                 " has [0, 1, 2] there; all frames must have the same mesh (frame 2 of 2)");
@@ -180,7 +180,7 @@ TEST(FrameInputs, OtherSpellingsOfTheSameCellsAreTaken) {
                      folder.write("g.ply", ply(4, PlyEncoding::binary_little_endian)),
                      folder.write("h.ply", ascii("float", "\n0 0\n1 0\n\n0 1\n3 0 1 2\n"))};
   for (const auto& first : all) {
-    const FrameInputs inputs = taken({first, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7]});
+    const Taken inputs({first, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7]});
     for (const FrameFacts& facts : inputs.facts()) EXPECT_EQ(facts.cells, 1u) << facts.file;
   }
 }

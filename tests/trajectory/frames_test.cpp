@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "support.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli {
@@ -43,16 +45,17 @@ TEST(Frames, ExtensionDecides) {
 
 TEST(Frames, LinearStepsJoinSuccessiveFrames) {
   const TemporaryFolder folder;
-  FrameSequence sequence(write_rising(folder, 4));
-  EXPECT_EQ(sequence.frame_count(), 4u);
+  FrameInputs frames(write_rising(folder, 4));
+  FrameSequence sequence(frames);
+  EXPECT_EQ(frames.count(), 4u);
   EXPECT_EQ(sequence.step_count(), 3u);
   for (std::size_t step = 0; step < 3; ++step) {
     ASSERT_TRUE(sequence.next());
     EXPECT_EQ(sequence.step(), step);
     EXPECT_EQ(sequence.x_t0()[2], (Position{0, 1, static_cast<double>(step)}));
     EXPECT_EQ(sequence.x_t1()[2], (Position{0, 1, static_cast<double>(step + 1)}));
-    EXPECT_EQ(sequence.path_t0(), folder / (std::to_string(step) + ".ply"));
-    EXPECT_EQ(sequence.path_t1(), folder / (std::to_string(step + 1) + ".ply"));
+    EXPECT_EQ(sequence.name_t0(), (folder / (std::to_string(step) + ".ply")).string());
+    EXPECT_EQ(sequence.name_t1(), (folder / (std::to_string(step + 1) + ".ply")).string());
     EXPECT_EQ(sequence.mesh().faces.size(), 1u);
   }
   EXPECT_FALSE(sequence.next());
@@ -60,28 +63,31 @@ TEST(Frames, LinearStepsJoinSuccessiveFrames) {
 
 TEST(Frames, ConstantStepsStandStill) {
   const TemporaryFolder folder;
-  FrameSequence sequence(write_rising(folder, 2), Motion::constant);
+  FrameInputs frames(write_rising(folder, 2));
+  FrameSequence sequence(frames, Motion::constant);
   EXPECT_EQ(sequence.step_count(), 2u);
   for (std::size_t step = 0; step < 2; ++step) {
     ASSERT_TRUE(sequence.next());
     EXPECT_EQ(sequence.step(), step);
     EXPECT_EQ(sequence.x_t0().data(), sequence.x_t1().data());
     EXPECT_EQ(sequence.x_t0()[0][2], static_cast<double>(step));
-    EXPECT_EQ(sequence.path_t0(), sequence.path_t1());
+    EXPECT_EQ(sequence.name_t0(), sequence.name_t1());
   }
   EXPECT_FALSE(sequence.next());
 }
 
 TEST(Frames, TooFewFrames) {
-  EXPECT_EQ(input_error([] { FrameSequence({}); }), "frames: there are none");
-  EXPECT_EQ(input_error([] { FrameSequence({}, Motion::constant); }), "frames: there are none");
-  EXPECT_EQ(input_error([] { FrameSequence({"one.ply"}); }),
+  FrameInputs none({}), one({"one.ply"});
+  EXPECT_EQ(input_error([&] { FrameSequence{none}; }), "frames: there are none");
+  EXPECT_EQ(input_error([&] { FrameSequence(none, Motion::constant); }), "frames: there are none");
+  EXPECT_EQ(input_error([&] { FrameSequence{one}; }),
             "one.ply: is a single frame, expected at least two to have a motion");
-  EXPECT_EQ(FrameSequence({"one.ply"}, Motion::constant).step_count(), 1u);
+  EXPECT_EQ(FrameSequence(one, Motion::constant).step_count(), 1u);
 }
 
 TEST(Frames, ReadsNothingBeforeItIsAsked) {
-  FrameSequence sequence({"missing-a.ply", "missing-b.ply"});
+  FrameInputs frames({"missing-a.ply", "missing-b.ply"});
+  FrameSequence sequence(frames);
   EXPECT_EQ(input_error([&] { sequence.next(); }), "missing-a.ply: cannot be opened: No such file or directory");
 }
 
@@ -112,7 +118,8 @@ TEST_P(DifferentMeshes, AreNamedWithTheFirstDifference) {
   const auto a = folder.write("a.obj", cells_obj), b = folder.write("b.obj", GetParam().text);
   std::string expected = b.string() + ": " + GetParam().difference + "; all frames must have the same mesh";
   expected.replace(expected.find("NAME"), 4, a.string());
-  FrameSequence sequence({a, a, b});
+  FrameInputs frames({a, a, b});
+  FrameSequence sequence(frames);
   ASSERT_TRUE(sequence.next());
   EXPECT_EQ(input_error([&] { sequence.next(); }), expected);
 }

@@ -5,7 +5,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "support.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli {
@@ -75,7 +76,8 @@ TEST(Merge, MeshRefersToTheFirstOfEachClass) {
 
 /// As `noli verify --merge-identical` does it.
 IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths) {
-  FrameSequence sequence(paths, Motion::constant);
+  FrameInputs frames(paths);
+  FrameSequence sequence(frames, Motion::constant);
   sequence.next();
   IdenticalVertices classes(sequence.mesh().vertex_count);
   do {

@@ -4,7 +4,8 @@
 #include "tests/support/real_data.h"
 #include "support.h"
 #include "trajectory/formats/file_info.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_inputs.h"
+#include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/query_csv.h"
 
 namespace noli {
@@ -46,7 +47,8 @@ TEST_P(RealFrames, HaveTheKnownCounts) {
 TEST(RealSequences, SuccessiveFramesHaveOneMesh) {
   const auto folder = test::real_data("frames/cloth-ball");
   if (!folder) GTEST_SKIP() << "no real data";
-  FrameSequence sequence({*folder / "cloth_ball92.ply", *folder / "cloth_ball93.ply"});
+  FrameInputs frames({*folder / "cloth_ball92.ply", *folder / "cloth_ball93.ply"});
+  FrameSequence sequence(frames);
   ASSERT_TRUE(sequence.next());
   EXPECT_EQ(sequence.x_t0().size(), 46598u);
   EXPECT_EQ(sequence.x_t1().size(), 46598u);

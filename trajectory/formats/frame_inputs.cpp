@@ -76,7 +76,13 @@ void FrameInputs::require_same_cells(std::size_t k, std::string_view bytes, cons
   same_.insert(look.cells);
 }
 
-Frame FrameInputs::read(std::size_t k) {
+bool FrameInputs::can_begin_again() const {
+  std::error_code error;
+  return std::ranges::all_of(facts_, [&](const FrameFacts& facts) { return fs::is_regular_file(facts.file, error); });
+}
+
+std::optional<Frame> FrameInputs::read(std::size_t k) {
+  if (k >= facts_.size()) return std::nullopt;
   const std::string bytes = read_whole_file(facts_[k].file);
   if (facts_[k].looked_at && frame_hash(bytes) != facts_[k].sha256) {
     throw InputError(facts_[k].file, "",
@@ -86,10 +92,6 @@ Frame FrameInputs::read(std::size_t k) {
   Frame frame = parse_frame(bytes, facts_[k].file, &polygons);
   take(k, bytes, frame, polygons);
   return frame;
-}
-
-ReadFrame FrameInputs::reader() {
-  return [this](const fs::path&, std::size_t k) { return read(k); };
 }
 
 void FrameInputs::take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons) {

@@ -4,7 +4,7 @@
 //
 //   FrameInputs inputs(paths);
 //   for (std::size_t k = 0; k < paths.size(); ++k) inputs.look_at(k);
-//   FrameSequence sequence(paths, motion, inputs.reader());
+//   FrameSequence sequence(inputs, motion);
 //
 // In memory: the file of one frame, and the cells of one mesh where files spell the same cells differently.
 //
@@ -23,37 +23,37 @@
 
 #include <noli/mesh.h>
 #include "trajectory/formats/frame_look.h"
-#include "trajectory/formats/frames.h"
+#include "trajectory/formats/frame_source.h"
 #include "trajectory/formats/polygons.h"
 
 namespace noli {
 
-class FrameInputs {
+class FrameInputs : public FrameSource {
  public:
   /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)".
   explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
 
+  std::optional<std::size_t> count() const override { return facts_.size(); }
+  std::string name(std::size_t k) const override { return facts_[k].file; }
+
   /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that
   /// was looked at. Throws InputError, which ends as above; ReadInterrupted.
-  void look_at(std::size_t k);
+  void look_at(std::size_t k) override;
 
-  /// Reads frame k for a FrameSequence. Throws InputError as parse_frame does, and when the file has changed since it
-  /// was looked at.
-  Frame read(std::size_t k);
-  /// Calls read(); valid as long as this is.
-  ReadFrame reader();
+  /// Reads frame k. Throws InputError as parse_frame does, and when the file has changed since it was looked at.
+  std::optional<Frame> read(std::size_t k) override;
+  /// Whether all are regular files.
+  bool can_begin_again() const override;
 
   /// One per frame.
-  const std::vector<FrameFacts>& facts() const { return facts_; }
-  /// Gives them away; this is of no more use.
-  std::vector<FrameFacts> take_facts() { return std::move(facts_); }
+  const std::vector<FrameFacts>& facts() const override { return facts_; }
   /// How many polygons of more than three corners a frame has at most, and their largest non-planarity (polygons.h) in
   /// all frames that were read.
   std::size_t polygons() const { return polygons_; }
   double non_planarity() const { return non_planarity_; }
 
   /// What to know of text and polygons, a line each.
-  std::vector<std::string> notes() const;
+  std::vector<std::string> notes() const override;
 
  private:
   void look_at(std::size_t k, std::string_view bytes);

@@ -87,35 +87,6 @@ bool all_z_equal(std::span<const Position> positions) {
   return std::all_of(positions.begin(), positions.end(), [&](const Position& x) { return x[2] == positions[0][2]; });
 }
 
-FrameSequence::FrameSequence(std::vector<std::filesystem::path> paths, Motion motion, ReadFrame read)
-    : paths_(std::move(paths)), motion_(motion), read_(std::move(read)) {
-  if (paths_.empty()) throw InputError("frames", "", "there are none");
-  if (motion_ == Motion::linear && paths_.size() == 1) {
-    throw InputError(paths_[0].string(), "", "is a single frame, expected at least two to have a motion");
-  }
-}
-
-bool FrameSequence::next() {
-  if (frames_read_ == paths_.size()) return false;
-  if (frames_read_ == 0 && motion_ == Motion::linear) read_next_frame();
-  read_next_frame();
-  return true;
-}
-
-void FrameSequence::read_next_frame() {
-  x_t0_ = std::exchange(x_t1_, {});
-  if (motion_ == Motion::constant) x_t0_ = {};
-  const std::filesystem::path& path = paths_[frames_read_];
-  Frame frame = read_ ? read_(path, frames_read_) : read_frame(path);
-  if (frames_read_ == 0) {
-    mesh_ = std::move(frame.mesh);
-  } else {
-    require_same_mesh(mesh_, paths_[0], frame.mesh, path);
-  }
-  x_t1_ = std::move(frame.positions);
-  ++frames_read_;
-}
-
 std::string conversion_advice(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   const auto* const found = std::ranges::find(advices, extension, &Advice::extension);

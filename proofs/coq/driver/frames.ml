@@ -211,11 +211,15 @@ let read_ply c =
   List.iter read elements; if ascii then skip_blank_lines c;
   finish c; (mesh_of vertices !cells, !x)
 
+(* The last four letters of a name, and whether it is that of one frame. *)
+let ending path =
+  let n = String.length path in String.lowercase_ascii (String.sub path (max 0 (n - 4)) (min 4 n))
+let is_frame path = List.mem (ending path) [".ply"; ".obj"]
+
 (* The mesh and the positions, three coordinates a vertex. *)
 let read_frame path =
   let channel = open_in_bin path in
   let c = cursor path 0 (really_input_string channel (in_channel_length channel)) in close_in channel;
-  let n = String.length path in
-  match String.lowercase_ascii (String.sub path (max 0 (n - 4)) (min 4 n)) with
+  match ending path with
   | ".ply" -> read_ply c | ".obj" when c.bytes <> "" -> read_obj c
   | _ -> fail c "is empty, or its name does not end in .ply or .obj"

@@ -156,6 +156,11 @@ same = {"a": frames("a", "ply", lambda x: ply("ascii", x)),
 for name, files in same.items():
     prove(name, files, 0)
     agree(name + ", the proof of a", work / "a.noli", files, 0)
+noli("verify", *same["a"], "--trajectory", work / "a.frames", "--no-check")
+prove("frames", [work / "a.frames"], 0)
+agree("frames, the proof of a", work / "a.noli", [work / "a.frames"], 0)
+if (work / "a.noli").read_bytes() != (work / "frames.noli").read_bytes(): failures.append("frames: another proof than a")
+prove("frames at rest", [work / "a.frames"], 0, "--static")
 prove("strict", same["a"], 0, "--strict")
 prove("rest", same["b"], 0, "--static")
 two = range(2)
@@ -307,6 +312,15 @@ for name in ("bounce", "plane_curtain"):
         if blocks[i][0] == "CMIT" or not blocks[i][1]: continue
         now = blocks[:i] + [(blocks[i][0], changed(blocks[i][1]))] + blocks[i + 1:]
         agree(f"{name}, run {k}", work / name / "proof.blocks", [write("run.blocks", block_file(b"TRAJ", now))], 3)
+
+# Block files of frames that are not what the proof is about, or no such files
+blocks = blocks_of((work / "a.frames").read_bytes())
+for k in range(40):
+    i = rng.randrange(len(blocks))
+    if blocks[i][0] == "CMIT": continue
+    now = rng.choice([[(blocks[i][0], changed(blocks[i][1]))], [], [blocks[i]] * 2, [("FRAZ", blocks[i][1])]])
+    made = block_file(b"FRMS", blocks[:i] + now + blocks[i + 1:])
+    agree(f"frames, file {k}", work / "frames.noli", [write("other.frames", made)], 3)
 
 # Texts that are no meshes, and such that are, against the proof of a
 for k in range(150):

@@ -57,19 +57,7 @@ let between t0 t1 dimension before after =
   let is_level x = Array.for_all (fun p -> p.(2) = x.(0).(2)) x in let flat = is_level before && is_level after in
   let rec m = { t0; t1; dimension; first; bytes; times = 0; positions = 16 * n; flat; hash = lazy (hash_of m) } in m
 
-let of_frames paths dimension at_rest =
-  let mesh, x = Frames.read_frame (List.hd paths) in
-  let rest = ref (if at_rest then paths else List.tl paths) and now = ref x and step = ref 0.0 in
-  if !rest = [] then raise (Rejected "the command line: expected more frames");
-  let read path =
-    let found, x = Frames.read_frame path in
-    if found <> mesh then raise (Rejected (path ^ ": another mesh than that of the frame before"));
-    let t0 = if at_rest then 0.0 else !step in
-    let m = between t0 (t0 +. 1.0) dimension (if at_rest then x else !now) x in
-    rest := List.tl !rest; now := x; step := !step +. 1.0; m in
-  let next () = Option.map read (List.nth_opt !rest 0) and more () = !rest <> [] in
-  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next; more }
-
+(* MESH: the number of vertices, and the cells. *)
 let read_mesh c =
   let vertices = u64 c and faces, edges = both u64 c in
   let vertex c = let v = u32 c in check c (v < vertices) "a vertex that is not there is named"; v in
@@ -77,6 +65,49 @@ let read_mesh c =
   check c (vertices >= 1 && vertices <= 1 lsl 32) "an impossible number of vertices";
   let cells = Array.concat (List.map cells [(faces, 3); (edges, 2); (u64 c, 1)]) in
   finish c; { Frames.vertices; cells }
+
+(* The mesh, a function that gives the positions of the next frame, and one that tells whether there is one: of PLY and
+   OBJ files, or of one block file of frames. *)
+let frames_of_file path =
+  let file = open_file path "FRMS" in
+  let mesh = read_mesh (expect file "MESH") and count = ref 0 in
+  ignore (expect file "CMIT");
+  let positions c =
+    check c (f64 c = float_of_int !count) "expected the number of the next frame"; need c mesh.vertices 24;
+    let x = Array.init mesh.vertices (fun _ -> many 3 f64 c) in
+    finish c; ignore (expect file "CMIT"); incr count; x in
+  let next_frame () = match next file with
+    | "", _ -> None
+    | kind, c -> check c (kind = "FRAM") "expected a block FRAM here"; Some (positions c) in
+  ({ mesh with cells = Frames.irredundant Fun.id mesh.cells }, next_frame, fun () -> file.read < file.size)
+
+let frames_of_paths paths =
+  let mesh, x = Frames.read_frame (List.hd paths) in
+  let first = ref (Some x) and rest = ref (List.tl paths) in
+  let read path =
+    let found, x = Frames.read_frame path in
+    if found <> mesh then raise (Rejected (path ^ ": another mesh than that of the frame before"));
+    rest := List.tl !rest; x in
+  let next_frame () = match !first with
+    | Some x -> first := None; Some x
+    | None -> Option.map read (List.nth_opt !rest 0) in
+  (mesh, next_frame, fun () -> !first <> None || !rest <> [])
+
+let of_frames paths dimension at_rest =
+  let mesh, next_frame, more_frames = match paths with
+    | [path] when not (Frames.is_frame path) -> frames_of_file path
+    | _ -> frames_of_paths paths in
+  let too_few () = raise (Rejected "the command line: expected more frames") in
+  let now = ref (match next_frame () with Some x -> x | None -> too_few ()) in
+  if not (at_rest || more_frames ()) then too_few ();
+  let pending = ref at_rest and step = ref 0.0 in
+  let move x =
+    let t0 = if at_rest then 0.0 else !step in
+    let m = between t0 (t0 +. 1.0) dimension (if at_rest then x else !now) x in
+    now := x; step := !step +. 1.0; m in
+  let next () = if !pending then (pending := false; Some (move !now)) else Option.map move (next_frame ()) in
+  let more () = !pending || more_frames () in
+  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next; more }
 
 (* Behind MESH: LABL, perhaps EXCL. The labels of the cells, and whether pairs of them are those that are excluded. *)
 let read_labels file (mesh : Frames.mesh) =

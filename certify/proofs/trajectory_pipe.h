@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A trajectory.blocks that is never a file: the world lines of a run that is reproduced, on their way to a checker.
+// A block file that is never a file, on its way to a checker: the world lines of a run that is reproduced, or frames
+// from a source that no checker reads.
 //
 // What is written is kept in memory until the checker has read it, and drained() bounds that: whoever calls it before
-// each window has one of them in memory.
+// each window, or frame, has one of them in memory.
 #pragma once
 
 #include <chrono>
@@ -22,18 +23,18 @@
 
 namespace noli {
 
-class LinesPipe {
+class TrajectoryPipe {
  public:
   /// A named pipe in a folder of its own, which vanishes with this. Gives up at the deadline, or when the user asks to
   /// stop. Throws std::system_error.
-  explicit LinesPipe(std::optional<std::chrono::steady_clock::time_point> deadline);
-  ~LinesPipe();
-  LinesPipe(const LinesPipe&) = delete;
-  LinesPipe& operator=(const LinesPipe&) = delete;
+  explicit TrajectoryPipe(std::optional<std::chrono::steady_clock::time_point> deadline);
+  ~TrajectoryPipe();
+  TrajectoryPipe(const TrajectoryPipe&) = delete;
+  TrajectoryPipe& operator=(const TrajectoryPipe&) = delete;
 
   /// What the checker opens.
   const std::filesystem::path& path() const { return path_; }
-  /// For a RunWriter, which this has to outlive.
+  /// For a RunWriter or FramesWriter, which this has to outlive.
   std::unique_ptr<Sink> sink();
 
   /// Waits until the checker has read all that was written. Throws std::runtime_error when it does not open the pipe
@@ -41,6 +42,10 @@ class LinesPipe {
   void drained();
   /// The same, and the checker is at its end.
   void close();
+  /// Nothing is written any more: whoever waits goes on.
+  void abandon();
+  /// Whether nothing is written any more.
+  bool is_over() const;
 
  private:
   class End;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/proofs/lines_pipe.h"
+#include "certify/proofs/trajectory_pipe.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -20,9 +20,9 @@ constexpr std::chrono::minutes time_to_open{1};
 
 }  // namespace
 
-class LinesPipe::End : public Sink {
+class TrajectoryPipe::End : public Sink {
  public:
-  explicit End(LinesPipe& pipe) : pipe_(pipe) {}
+  explicit End(TrajectoryPipe& pipe) : pipe_(pipe) {}
   void write(std::string_view bytes) override { pipe_.put(bytes); }
   void sync() override {}
   void truncate(std::uint64_t /*size*/) override {
@@ -30,10 +30,10 @@ class LinesPipe::End : public Sink {
   }
 
  private:
-  LinesPipe& pipe_;
+  TrajectoryPipe& pipe_;
 };
 
-LinesPipe::LinesPipe(std::optional<std::chrono::steady_clock::time_point> deadline)
+TrajectoryPipe::TrajectoryPipe(std::optional<std::chrono::steady_clock::time_point> deadline)
     : deadline_(deadline), path_(folder_.path() / "trajectory.blocks") {
   if (::mkfifo(path_.c_str(), S_IRUSR | S_IWUSR) != 0) {
     throw std::system_error(errno, std::generic_category(), path_.string());
@@ -41,18 +41,22 @@ LinesPipe::LinesPipe(std::optional<std::chrono::steady_clock::time_point> deadli
   thread_ = std::thread([this] { work(); });
 }
 
-LinesPipe::~LinesPipe() {
+TrajectoryPipe::~TrajectoryPipe() {
+  abandon();
+  thread_.join();
+}
+
+void TrajectoryPipe::abandon() {
   {
     const std::lock_guard lock(mutex_);
     abandoned_ = true;
   }
   changed_.notify_all();
-  thread_.join();
 }
 
-std::unique_ptr<Sink> LinesPipe::sink() { return std::make_unique<End>(*this); }
+std::unique_ptr<Sink> TrajectoryPipe::sink() { return std::make_unique<End>(*this); }
 
-void LinesPipe::put(std::string_view bytes) {
+void TrajectoryPipe::put(std::string_view bytes) {
   {
     const std::lock_guard lock(mutex_);
     if (over_) return;
@@ -61,16 +65,16 @@ void LinesPipe::put(std::string_view bytes) {
   changed_.notify_all();
 }
 
-void LinesPipe::drained() {
+void TrajectoryPipe::drained() {
   std::unique_lock lock(mutex_);
   if (!awaited_since_) awaited_since_ = std::chrono::steady_clock::now();
   changed_.wait(lock, [this] { return waiting_.empty() || over_; });
   if (unopened_) {
-    throw std::runtime_error("the checker does not read the world lines; expected it to open " + path_.string());
+    throw std::runtime_error("the checker does not read the motion; expected it to open " + path_.string());
   }
 }
 
-void LinesPipe::close() {
+void TrajectoryPipe::close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;
@@ -79,23 +83,28 @@ void LinesPipe::close() {
   drained();
 }
 
-bool LinesPipe::given_up() const {
+bool TrajectoryPipe::is_over() const {
+  const std::lock_guard lock(mutex_);
+  return over_;
+}
+
+bool TrajectoryPipe::given_up() const {
   const std::lock_guard lock(mutex_);
   return abandoned_ || is_stopped();
 }
 
-bool LinesPipe::is_stopped() const {
+bool TrajectoryPipe::is_stopped() const {
   return stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_);
 }
 
 /// Whether somebody has waited too long for the checker to read. Before anybody waits it may not have been started.
-bool LinesPipe::waited_too_long() const {
+bool TrajectoryPipe::waited_too_long() const {
   const std::lock_guard lock(mutex_);
   return awaited_since_ && std::chrono::steady_clock::now() >= *awaited_since_ + time_to_open;
 }
 
 /// Waits for the checker to open its end; until then ours cannot be opened.
-std::optional<int> LinesPipe::open() const {
+std::optional<int> TrajectoryPipe::open() const {
   while (!given_up() && !waited_too_long()) {
     const int end = ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     if (end >= 0) return end;
@@ -105,7 +114,7 @@ std::optional<int> LinesPipe::open() const {
 }
 
 /// False when nobody reads it any more.
-bool LinesPipe::write(int end, std::string_view bytes) const {
+bool TrajectoryPipe::write(int end, std::string_view bytes) const {
   while (!bytes.empty()) {
     const ssize_t written = ::write(end, bytes.data(), bytes.size());
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -118,7 +127,7 @@ bool LinesPipe::write(int end, std::string_view bytes) const {
   return true;
 }
 
-void LinesPipe::work() {
+void TrajectoryPipe::work() {
   const std::optional<int> end = open();
   std::unique_lock lock(mutex_);
   while (end && !abandoned_) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Checkers and frames that they do not read themselves: those get to them as a block file of frames, on a pipe or in a
+// file that vanishes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "certify/proofs/checker.h"
+#include "trajectory/formats/frame_source.h"
+
+namespace noli {
+
+/// Whether checkers read this motion as it is: PLY and OBJ files, or one block file.
+bool checkers_read(const std::vector<std::filesystem::path>& frames);
+
+/// Has a checker look at a proof in a file, and gives it the frames; those of `request.trajectory` are not used. One
+/// frame is in memory at a time; for the verified checker, which measures its files, all are in a file for a while.
+/// Nothing after a stop. Precondition: request.proof. Throws what CheckerProcess and the frames throw.
+std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames);
+
+}  // namespace noli

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/proofs/proof_route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/proofs/check_frames.h"
+#include "certify/proofs/claim.h"
+#include "certify/stopwatch.h"
+#include "trajectory/formats/open_frames.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the prover decides when nobody wants its proof.
+class NoSink : public Sink {
+  void write(std::string_view /*bytes*/) override {}
+  void sync() override {}
+  void truncate(std::uint64_t /*size*/) override {}
+};
+
+/// To a file, and on the way to a checker.
+class BothSinks : public Sink {
+ public:
+  BothSinks(std::unique_ptr<Sink> one, std::unique_ptr<Sink> other) : sinks_{std::move(one), std::move(other)} {}
+  void write(std::string_view bytes) override {
+    for (const auto& sink : sinks_) sink->write(bytes);
+  }
+  void sync() override {
+    for (const auto& sink : sinks_) sink->sync();
+  }
+  void truncate(std::uint64_t size) override {
+    for (const auto& sink : sinks_) sink->truncate(size);
+  }
+
+ private:
+  std::unique_ptr<Sink> sinks_[2];
+};
+
+}  // namespace
+
+ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
+  if ((request.lines_in_no_file || frames_are_streamed()) && request.check && request.min_distance == 0) {
+    request.trajectory_pipe = &pipe_.emplace(request.deadline);
+  }
+  can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
+  file_ = request.proof;
+  const bool later = request.min_distance > 0 || request.follow || request.live;
+  if (!file_ && can_check_ && later) file_ = folder_.emplace().path() / "proof.noli";
+  if (pipe_ && file_) {
+    request.open_proof = [this](const Claim& claim) {
+      return std::make_unique<BothSinks>(to_file(), to_checker(claim));
+    };
+  } else if (file_) {
+    request.open_proof = [this](const Claim&) { return to_file(); };
+  } else if (can_check_) {
+    request.open_proof = [this](const Claim& claim) { return to_checker(claim); };
+    request.open_proof_at_once = true;
+  } else if (request.min_distance > 0) {
+    request.open_proof = [](const Claim&) { return std::make_unique<NoSink>(); };
+  }
+}
+
+bool ProofRoute::frames_are_streamed() const { return !request_.run && !checkers_read(request_.frames); }
+
+bool ProofRoute::can_be_read_again() const {
+  if (request_.lines_in_no_file) return false;
+  std::error_code error;
+  return std::ranges::all_of(trajectory_for_checker(request_.frames), [&](const fs::path& path) {
+    return path != "-" && (!fs::exists(path, error) || fs::is_regular_file(path, error));
+  });
+}
+
+std::vector<fs::path> ProofRoute::trajectory() const {
+  if (pipe_) return {pipe_->path()};
+  return trajectory_for_checker(request_.frames);
+}
+
+void ProofRoute::check(VerifyOutcome& outcome) {
+  if (request_.check) outcome.not_checked = why_not(outcome);
+  const bool refuted = outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near;
+  const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
+  if (!request_.check || outcome.not_checked || !whole) return;
+  const Stopwatch watch;
+  const auto verdict = verdict_on(outcome.claim);
+  outcome.check_seconds = watch.seconds();
+  if (!verdict) return stopped(outcome);
+  outcome.checked = first_line(verdict->words);
+  if (verdict->code != (refuted ? 1 : 0)) {
+    throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
+                             *outcome.checked);
+  }
+  require_claim(outcome.claim, verdict->words, refuted);
+  outcome.checker = version_of(Checker::plain);
+  if (!refuted) outcome.verdict = Verdict::proved;
+}
+
+/// Of the checker that has read along, or one that reads the file. Frames that no checker reads are read once more.
+std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
+  if (checker_) {
+    if (pipe_) pipe_->close();
+    return checker_->finish();
+  }
+  const CheckRequest request{.proof = file_, .trajectory = trajectory(), .asked = fields_of(claim)};
+  if (frames_are_streamed()) return check_frames(request, *open_frames(request_.frames, request_.reading));
+  return CheckerProcess(request).finish();
+}
+
+/// The checker has looked at the claim that was asked, and at no other.
+void ProofRoute::require_claim(const Claim& asked, const std::string& words, bool refuted) {
+  const char* const word = refuted ? "refuted" : "accepted";
+  const auto checked = claim_of_words(words);
+  if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
+  if (const auto other = difference(asked, *checked, refuted)) {
+    throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
+  }
+}
+
+std::unique_ptr<Sink> ProofRoute::to_file() const {
+  fs::remove(*file_);
+  return std::make_unique<FileSink>(*file_, FileSink::Open::create);
+}
+
+std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
+  checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
+  return std::make_unique<CheckerSink>(*checker_);
+}
+
+std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {
+  if (!can_check_ && request_.lines_in_no_file)
+    return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
+  if (!can_check_) return "what is verified is no file that could be read twice";
+  if (outcome.no_proof) return "no proof was found";
+  if (outcome.open_window && !pipe_)
+    return "the run ends within a window; resume it first (noli simulate ... --resume)";
+  return std::nullopt;
+}
+
+void ProofRoute::stopped(VerifyOutcome& outcome) const {
+  const bool by_user = request_.stop != nullptr && request_.stop->load(std::memory_order_relaxed);
+  (by_user ? outcome.interrupted : outcome.out_of_time) = true;
+  outcome.not_checked = by_user ? "interrupted" : "time limit";
+  if (outcome.verdict != Verdict::no_contact) return;
+  outcome.verdict = Verdict::undecided;
+  outcome.complete = false;
+}
+
+}  // namespace noli

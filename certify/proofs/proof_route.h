@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The way of a proof: to a file, or to the checker at once, and of the motion to the checker where it is in no file
+// that checkers read.
+//
+//   ProofRoute route(request);                        // sets how the request's proof is written
+//   VerifyOutcome outcome = run_verify(request);
+//   route.check(outcome);                             // "no contact" becomes "proved"
+//
+// With a least distance the proof goes through a file in any case, because of a step that is nearer the proof is begun
+// before that is known, and has to be taken back; and of a run that is being written, because how many windows there
+// are is known at the end.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <noli/verify.h>
+#include "certify/process/scratch_folder.h"
+#include "certify/proofs/checker.h"
+#include "certify/proofs/trajectory_pipe.h"
+
+namespace noli {
+
+class ProofRoute {
+ public:
+  /// `request` has to outlive this. Throws std::system_error.
+  explicit ProofRoute(VerifyRequest& request);
+
+  /// Has the checker say what it thinks of a proof that is complete. What it refuses is an error of this program:
+  /// throws std::runtime_error.
+  void check(VerifyOutcome& outcome);
+
+ private:
+  static void require_claim(const Claim& asked, const std::string& words, bool refuted);
+  bool frames_are_streamed() const;
+  bool can_be_read_again() const;
+  std::vector<std::filesystem::path> trajectory() const;
+  std::unique_ptr<Sink> to_file() const;
+  std::unique_ptr<Sink> to_checker(const Claim& claim);
+  std::optional<CheckerVerdict> verdict_on(const Claim& claim);
+  std::optional<std::string> why_not(const VerifyOutcome& outcome) const;
+  void stopped(VerifyOutcome& outcome) const;
+
+  VerifyRequest& request_;
+  bool can_check_ = false;
+  std::optional<ScratchFolder> folder_;
+  std::optional<std::filesystem::path> file_;
+  std::optional<TrajectoryPipe> pipe_;  ///< of a motion that is in no file which checkers read
+  std::optional<CheckerProcess> checker_;
+};
+
+}  // namespace noli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Opens frames, whatever holds them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "trajectory/formats/frame_source.h"
+
+namespace noli {
+
+/// Whether a file has frames, by its name or its first bytes.
+bool holds_frames(const std::filesystem::path& path);
+
+/// `names`: files in the order of time. Throws InputError for what is no frame by its name; reads nothing yet.
+std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names,
+                                         const FrameReading& reading = {});
+
+}  // namespace noli
