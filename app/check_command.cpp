@@ -59,6 +59,7 @@ struct CheckArguments {
   std::optional<fs::path> claim;
   bool verified = false;
   FrameOrder order = FrameOrder::checked;
+  FrameReading reading;
   std::string time_limit;
   OutputOptions results;
 };
@@ -156,9 +157,9 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
   return answer;
 }
 
-CheckerVerdict ask(const CheckRequest& request) {
+CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
   if (checkers_read(request.trajectory)) return check_proof(request);
-  auto verdict = check_frames(request, *open_frames(request.trajectory));
+  auto verdict = check_frames(request, *open_frames(request.trajectory, reading));
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);
 }
@@ -188,7 +189,8 @@ ExitCode run(const CheckArguments& arguments) {
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   const CheckerVerdict verdict =
-      ask({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked});
+      ask({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked},
+          arguments.reading);
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
@@ -217,6 +219,7 @@ Command add_check(CLI::App& app) {
       ->type_name("CLAIM.json");
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
+  add_keys_option(*command, arguments->reading.keys);
   add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

@@ -128,6 +128,17 @@ void add_order_option(CLI::App& command, FrameOrder& order) {
       ->type_name("natural|given");
 }
 
+void add_keys_option(CLI::App& command, std::vector<std::string>& keys) {
+  command
+      .add_option("--keys", keys,
+                  "Names of arrays in a .npz file: the positions, then faces (edges, points); default: those that can "
+                  "be no other")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("POSITIONS,FACES")
+      ->group(group::question);
+}
+
 void add_polygons_option(CLI::App& command, PolygonRule& polygons) {
   command
       .add_option_function<std::string>(

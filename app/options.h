@@ -49,6 +49,9 @@ std::optional<std::chrono::steady_clock::time_point> begin_work(const std::strin
 /// --order natural | given; neither: the order given has to be that of the numbers in the names.
 void add_order_option(CLI::App& command, FrameOrder& order);
 
+/// --keys POSITIONS,FACES
+void add_keys_option(CLI::App& command, std::vector<std::string>& keys);
+
 /// --polygons fan | refuse
 void add_polygons_option(CLI::App& command, PolygonRule& polygons);
 

@@ -56,6 +56,7 @@ struct ReportArguments {
   bool force = false;
   bool open = false;  ///< in a browser, once it is written
   FrameOrder order = FrameOrder::checked;
+  FrameReading reading;
   std::optional<std::string> title;
   std::string time_limit;
 };
@@ -194,7 +195,7 @@ class Report {
   void put_frames() {
     if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
     const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
-    const auto frames = open_frames(inputs_.frames);
+    const auto frames = open_frames(inputs_.frames, reading());
     const std::size_t count = frames->count().value_or(0);
     if (steps.run || steps.count != count) {
       throw InputError(verified_->path.string(), "",
@@ -206,6 +207,15 @@ class Report {
     about.require_files(frames->facts());
     report::report_frames(*frames, {steps.at_rest, steps.flat}, arguments_.limits, report_);
     about.require_files(frames->facts());  // pipes are known now
+  }
+
+  /// As the result says, unless told otherwise.
+  FrameReading reading() const {
+    FrameReading reading = arguments_.reading;
+    if (reading.keys.empty()) {
+      reading.keys = verified_->json.at("statement").value("keys", Json::array()).get<std::vector<std::string>>();
+    }
+    return reading;
   }
 
   void put_verdict_of_verify() {
@@ -289,6 +299,7 @@ Command add_report(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "The page")->required()->type_name("OUT.html");
   command->add_option("--title", arguments->title, "What stands at its head")->type_name("TEXT");
   add_order_option(*command, arguments->order);
+  add_keys_option(*command, arguments->reading.keys);
   command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")
       ->check(is_positive())
       ->check(is_rate())

@@ -52,6 +52,7 @@ constexpr const char* verify_footer =
     "  noli verify before.ply after.ply\n"
     "  noli verify 'cloth_*.obj'                     in quotes: cloth_2 before cloth_10\n"
     "  noli verify frames --json result.json         all frames in a folder\n"
+    "  noli verify motion.npz --keys vertices,faces  arrays (frames, vertices, 3) and (faces, 3)\n"
     "  noli verify frames/%04d.ply                   or @list.txt, which names the files\n"
     "  noli verify a.ply b.ply --proof ab.noli       anybody can check it: noli check ab.noli a.ply b.ply\n"
     "  noli verify rest.ply --static                 does this mesh intersect itself?\n"
@@ -232,7 +233,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   command
       .add_option("frames", request.frames,
-                  "PLY or OBJ files in the order of time; a folder of them; a pattern; or the folder of one run")
+                  "PLY or OBJ files in the order of time, a folder of them, a pattern; .npz or .npy; or one run")
       ->required()
       ->type_name("FRAMES|RUN");
   add_order_option(command, request.order);
@@ -303,6 +304,7 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
       ->type_name("2|3")
       ->group(group::question);
   add_polygons_option(command, request.reading.polygons);
+  add_keys_option(command, request.reading.keys);
   command
       .add_option("--claim-out", arguments.claim_out,
                   "Write the claim to this file; with `noli check --claim` no proof can claim less")

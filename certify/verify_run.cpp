@@ -23,6 +23,7 @@
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/open_frames.h"
+#include "trajectory/formats/stored_frames.h"
 #include "trajectory/merge.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
@@ -348,10 +349,7 @@ std::uint64_t VerifyOutcome::frame_count() const {
   return count;
 }
 
-std::string VerifyOutcome::frame_name(std::size_t k) const {
-  if (inputs.size() == 1 && inputs[0].frames > 1) return fmt::format("{}[{}]", inputs[0].file, k);
-  return k < inputs.size() ? inputs[k].file : fmt::format("frame {}", k);
-}
+std::string VerifyOutcome::frame_name(std::size_t k) const { return noli::frame_name(inputs, k); }
 
 void VerifyRequest::put_in_order() {
   OrderedFrames in_order = order_frames(std::move(frames), order);

@@ -6,13 +6,17 @@
 namespace noli {
 
 BlockFrames::BlockFrames(const std::filesystem::path& path)
-    : OneFileFrames(path), reader_(path), count_(reader_->count()) {
-  describe("float64", reader_->mesh().vertex_count, reader_->mesh().cell_count(), count_);
+    : StoredFrames({path}), reader_(path), count_(reader_->count()) {
+  FrameFacts& facts = facts_of(0);
+  facts.numbers = "float64";
+  facts.vertices = reader_->mesh().vertex_count;
+  facts.cells = reader_->mesh().cell_count();
+  facts.frames = count_;
 }
 
 std::optional<Frame> BlockFrames::read(std::size_t k) {
   if (k < next_) {
-    reader_.emplace(file());
+    reader_.emplace(facts()[0].file);
     next_ = 0;
   }
   std::optional<std::vector<Position>> positions;

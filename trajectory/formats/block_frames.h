@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "trajectory/blocks/frames_file.h"
-#include "trajectory/formats/one_file_frames.h"
+#include "trajectory/formats/stored_frames.h"
 
 namespace noli {
 
-class BlockFrames : public OneFileFrames {
+class BlockFrames : public StoredFrames {
  public:
   /// Throws InputError: no such file, or none of frames.
   explicit BlockFrames(const std::filesystem::path& file);

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/formats/open_frames.h"
 
+#include <noli/errors.h>
 #include "trajectory/blocks/frames_file.h"
+#include "trajectory/formats/arrays/array_frames.h"
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"
 
 namespace noli {
 
-bool holds_frames(const std::filesystem::path& path) { return is_frame_name(path) || is_frames_file(path); }
+bool holds_frames(const std::filesystem::path& path) {
+  return is_frame_name(path) || is_array_name(path) || is_frames_file(path);
+}
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);
   }
+  if (!names.empty() && is_array_name(names[0])) return std::make_unique<ArrayFrames>(names, reading.keys);
+  if (!reading.keys.empty()) throw UsageError("--keys: names arrays of a .npz file; expected one, or no --keys");
   return std::make_unique<FrameInputs>(names, reading.polygons);
 }
 

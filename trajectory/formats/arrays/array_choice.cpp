@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/arrays/array_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include <noli/errors.h>
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+using Arrays = std::vector<const StoredArray*>;
+
+bool is_real(const StoredArray& array) { return array.header.kind == NpyHeader::Kind::real; }
+
+bool is_coordinates(std::uint64_t n) { return n == 2 || n == 3; }
+
+bool holds_frames(const StoredArray& array) {
+  const auto& shape = array.header.shape;
+  return array.fault.empty() && is_real(array) && shape.size() == 3 && is_coordinates(shape[2]);
+}
+
+bool is_frame(const StoredArray& array) {
+  const auto& shape = array.header.shape;
+  return array.fault.empty() && is_real(array) && shape.size() == 2 && is_coordinates(shape[1]);
+}
+
+/// Of so many corners each; 1 is one number for each cell.
+bool holds_cells(const StoredArray& array, std::uint64_t corners) {
+  const auto& shape = array.header.shape;
+  if (!array.fault.empty() || is_real(array)) return false;
+  return corners == 1 ? shape.size() == 1 : shape.size() == 2 && shape[1] == corners;
+}
+
+class Choice {
+ public:
+  Choice(const std::vector<StoredArray>& arrays, const std::string& where) : arrays_(arrays), where_(where) {}
+
+  ChosenArrays operator()(const std::vector<std::string>& keys) {
+    if (keys.empty()) {
+      chosen_.positions = the_positions();
+      chosen_.cells = the_cells();
+    } else {
+      chosen_.positions = {&named(keys[0])};
+      for (std::size_t i = 1; i < keys.size(); ++i) chosen_.cells.push_back(&named(keys[i]));
+    }
+    require_shapes();
+    return chosen_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    constexpr std::size_t most_listed = 20;
+    std::vector<std::string> there;
+    for (const StoredArray& array : arrays_) {
+      if (there.size() == most_listed) break;
+      there.push_back(on_one_line(array.key) + " " + (array.fault.empty() ? array.header.text() : "(not readable)"));
+    }
+    const std::size_t more = arrays_.size() - there.size();
+    throw InputError(where_, "",
+                     fmt::format("{}; there {} {}{}", problem, arrays_.size() == 1 ? "is" : "are",
+                                 there.empty() ? "no arrays" : fmt::format("{}", fmt::join(there, ", ")),
+                                 more > 0 ? fmt::format(" and {} more", more) : ""));
+  }
+
+  template <class Fits>
+  Arrays that(const Fits& fits) const {
+    Arrays found;
+    for (const StoredArray& array : arrays_) {
+      if (fits(array)) found.push_back(&array);
+    }
+    return found;
+  }
+
+  const StoredArray& named(const std::string& key) const {
+    const Arrays found = that([&](const StoredArray& array) { return array.key == key; });
+    if (found.empty()) fail(fmt::format("--keys: there is no array {}", in_quotes(key)));
+    if (found.size() > 1) fail(fmt::format("--keys: there are {} arrays {}", found.size(), in_quotes(key)));
+    if (!found[0]->fault.empty()) throw InputError(found[0]->name, "", found[0]->fault);
+    return *found[0];
+  }
+
+  Arrays the_positions() const {
+    const Arrays all = that(holds_frames);
+    if (all.size() == 1) return all;
+    if (all.size() > 1) fail("several arrays may be the positions; name them: --keys POSITIONS,FACES");
+    const Arrays frames = that(is_frame);
+    if (frames.empty()) fail("no array has positions, real numbers of shape (frames, vertices, 3)");
+    const bool one_a_file = std::ranges::adjacent_find(frames, {}, &StoredArray::file) == frames.end();
+    if (frames.size() > 1 && !one_a_file)
+      fail("several arrays may be the positions; name them: --keys POSITIONS,FACES");
+    return frames;
+  }
+
+  /// Faces; loose edges where there are none.
+  Arrays the_cells() const {
+    for (const std::uint64_t corners : {3U, 2U}) {
+      const Arrays found = that([&](const StoredArray& array) { return holds_cells(array, corners); });
+      if (found.size() == 1) return found;
+      if (found.size() > 1) {
+        fail(fmt::format("several arrays may be the {}; name them: --keys POSITIONS,{}",
+                         corners == 3 ? "faces" : "edges", corners == 3 ? "FACES" : "EDGES"));
+      }
+    }
+    return {};
+  }
+
+  void require_shapes() {
+    const StoredArray& first = *chosen_.positions[0];
+    const bool together = holds_frames(first);
+    if (!together && !is_frame(first)) {
+      throw InputError(
+          first.name, "",
+          fmt::format("is {}; expected positions, real numbers of shape (frames, vertices, 3)", first.header.text()));
+    }
+    const auto& shape = first.header.shape;
+    chosen_.frames = together ? shape[0] : chosen_.positions.size();
+    chosen_.vertices = shape[together ? 1 : 0];
+    chosen_.coordinates = shape.back();
+    constexpr std::uint64_t most_vertices = 0xffffffff;
+    if (chosen_.frames == 0 || chosen_.vertices == 0 || chosen_.vertices > most_vertices) {
+      throw InputError(
+          first.name, "",
+          fmt::format("is {}: expected at least one frame, and 1 to {} vertices", first.header.text(), most_vertices));
+    }
+    for (const StoredArray* const one : chosen_.positions) {
+      if (one->header.shape == shape) continue;
+      throw InputError(one->name, "",
+                       fmt::format("is {}, but {} is {}; all frames must have the same vertices", one->header.text(),
+                                   first.name, first.header.text()));
+    }
+    for (const StoredArray* const cells : chosen_.cells) {
+      if (holds_cells(*cells, 3) || holds_cells(*cells, 2) || holds_cells(*cells, 1)) continue;
+      throw InputError(cells->name, "",
+                       fmt::format("is {}; expected cells, integers of shape (faces, 3), (edges, 2) or (points,)",
+                                   cells->header.text()));
+    }
+  }
+
+  const std::vector<StoredArray>& arrays_;
+  const std::string& where_;
+  ChosenArrays chosen_;
+};
+
+}  // namespace
+
+ChosenArrays choose_arrays(const std::vector<StoredArray>& arrays, const std::vector<std::string>& keys,
+                           const std::string& where) {
+  return Choice(arrays, where)(keys);
+}
+
+}  // namespace noli

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/arrays/array_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <noli/errors.h>
+#include "trajectory/cells.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_columns = std::size_t{1} << 25;  ///< numbers that are kept of an array in Fortran's order
+
+/// What is wrong with the length of an array; "" if nothing is.
+std::string fault_of(const NpyHeader& header, std::uint64_t bytes) {
+  if (header.bytes() == bytes) return "";
+  return fmt::format("is {}, which takes {} bytes, but has {}", header.text(), header.bytes(), bytes);
+}
+
+/// The number of a cell's corners in the array.
+std::size_t corners_of(const NpyHeader& header) { return header.shape.size() == 1 ? 1 : header.shape[1]; }
+
+/// Gives all cells of an array, in parts, whatever its order.
+class CellReader {
+ public:
+  CellReader(const StoredArray& array, std::size_t vertices, Mesh& mesh)
+      : array_(array), vertices_(vertices), mesh_(mesh), corners_(corners_of(array.header)) {}
+
+  void read() {
+    const std::uint64_t count = array_.header.shape[0];
+    if (count > 0xffffffff) throw InputError(array_.name, "", "has more than 4294967295 cells");
+    const auto bytes = array_.open();
+    std::vector<std::int64_t> part;
+    if (array_.header.fortran && corners_ > 1) return read_columns(*bytes, count);
+    constexpr std::size_t most = 4096;
+    for (std::uint64_t done = 0; done < count; done += part.size() / corners_) {
+      part.resize(corners_ * static_cast<std::size_t>(std::min<std::uint64_t>(most, count - done)));
+      read_numbers(*bytes, array_.header, array_.name, part);
+      for (std::size_t i = 0; i < part.size(); i += corners_) add(std::span(part).subspan(i, corners_));
+    }
+  }
+
+ private:
+  /// All first corners, then all second ones, ...
+  void read_columns(ByteStream& bytes, std::uint64_t count) {
+    std::vector<std::vector<std::int64_t>> columns(corners_);
+    constexpr std::size_t most = 4096;
+    for (auto& column : columns) {
+      while (column.size() < count) {
+        const std::size_t before = column.size();
+        column.resize(before + static_cast<std::size_t>(std::min<std::uint64_t>(most, count - before)));
+        read_numbers(bytes, array_.header, array_.name, std::span(column).subspan(before));
+      }
+    }
+    std::vector<std::int64_t> cell(corners_);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < corners_; ++k) cell[k] = columns[k][i];
+      add(cell);
+    }
+  }
+
+  void add(std::span<const std::int64_t> cell) {
+    std::array<VertexId, 3> corners{};
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      if (cell[k] < 0 || static_cast<std::uint64_t>(cell[k]) >= vertices_) {
+        throw InputError(array_.name, "",
+                         fmt::format("cell {} has vertex {}; expected 0 to {}", number_, cell[k], vertices_ - 1));
+      }
+      corners[k] = static_cast<VertexId>(cell[k]);
+    }
+    add_polygon(mesh_, std::span<const VertexId>(corners).first(cell.size()));
+    ++number_;
+  }
+
+  const StoredArray& array_;
+  std::size_t vertices_;
+  Mesh& mesh_;
+  std::size_t corners_;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace
+
+bool is_array_name(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".npz" || extension == ".npy";
+}
+
+ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<std::string>& keys)
+    : StoredFrames(files) {
+  if (extension_of(files[0]) == ".npz") {
+    if (files.size() > 1) throw InputError(files[1].string(), "", "expected one .npz file alone");
+    add_npz(files[0]);
+  } else {
+    for (std::size_t i = 0; i < files.size(); ++i) add_npy(files[i], i);
+  }
+  const std::string where = files.size() == 1 ? files[0].string() : "the arrays";
+  chosen_ = choose_arrays(arrays_, keys, where);
+  read_mesh();
+  describe();
+}
+
+void ArrayFrames::add_npz(const fs::path& file) {
+  archive_ = std::make_unique<NpzFile>(file);
+  for (std::size_t i = 0; i < archive_->keys().size(); ++i) {
+    end_if_stopped();
+    const std::string& key = archive_->keys()[i];
+    StoredArray array{key, fmt::format("{}: {}", file.string(), on_one_line(key)), 0, {}, "", {}};
+    const auto open = [this, i, name = array.name] {
+      auto bytes = archive_->open(i);
+      read_npy_header(*bytes, name);
+      return bytes;
+    };
+    try {
+      const auto bytes = archive_->open(i);
+      const auto header = read_npy_header(*bytes, array.name);
+      array.fault = header ? fault_of(*header, archive_->size(i)) : "is empty";
+      if (header) array.header = *header;
+    } catch (const InputError& error) {
+      array.fault = error.what();
+    }
+    array.open = open;
+    arrays_.push_back(std::move(array));
+  }
+}
+
+void ArrayFrames::add_npy(const fs::path& file, std::size_t number) {
+  if (extension_of(file) != ".npy") {
+    throw InputError(file.string(), "", "is no .npy file; expected all arrays in such files, or one .npz");
+  }
+  require_regular_file(file);
+  StoredArray array{file.stem().string(), file.string(), number, {}, "", {}};
+  FileBytes bytes(file);
+  const auto header = read_npy_header(bytes, array.name);
+  if (!header) throw InputError(array.name, "", "is empty");
+  array.header = *header;
+  const std::string fault = fault_of(*header, fs::file_size(file));
+  if (!fault.empty()) throw InputError(array.name, "", fault);
+  array.open = [file] {
+    auto opened = std::make_unique<FileBytes>(file);
+    read_npy_header(*opened, file.string());
+    return opened;
+  };
+  arrays_.push_back(std::move(array));
+}
+
+void ArrayFrames::read_mesh() {
+  mesh_.vertex_count = chosen_.vertices;
+  for (const StoredArray* const cells : chosen_.cells) CellReader(*cells, chosen_.vertices, mesh_).read();
+  drop_redundant_cells(mesh_);
+}
+
+void ArrayFrames::describe() {
+  for (std::size_t i = 0; i < facts().size(); ++i) facts_of(i).frames = 0;
+  for (const StoredArray* const array : chosen_.positions) {
+    FrameFacts& facts = facts_of(array->file);
+    facts.numbers = array->header.type();
+    facts.vertices = chosen_.vertices;
+    facts.cells = mesh_.cell_count();
+    facts.frames += chosen_.positions.size() == 1 ? chosen_.frames : 1;
+  }
+}
+
+std::optional<Frame> ArrayFrames::read(std::size_t k) {
+  if (k >= chosen_.frames) return std::nullopt;
+  end_if_stopped();
+  const std::vector<double> numbers = numbers_of_frame(k);
+  require_unchanged();
+  return Frame{mesh_, positions_of(k, numbers)};
+}
+
+std::vector<double> ArrayFrames::numbers_of_frame(std::size_t k) {
+  const bool one_a_file = chosen_.positions.size() > 1;
+  const StoredArray& array = *chosen_.positions[one_a_file ? k : 0];
+  if (one_a_file) {
+    stream_ = nullptr;
+    columns_count_ = 0;
+    next_ = 0;
+    k = 0;
+  }
+  if (!array.header.fortran) return next_in_order(array, k);
+  if (k < columns_first_ || k >= columns_first_ + columns_count_) load_columns(array, k);
+  const std::size_t size = chosen_.vertices, stride = columns_count_;
+  std::vector<double> numbers(size * chosen_.coordinates);
+  for (std::size_t c = 0; c < chosen_.coordinates; ++c) {
+    for (std::size_t v = 0; v < size; ++v) {
+      numbers[v * chosen_.coordinates + c] = columns_[(c * size + v) * stride + (k - columns_first_)];
+    }
+  }
+  return numbers;
+}
+
+std::vector<double> ArrayFrames::next_in_order(const StoredArray& array, std::size_t k) {
+  if (!stream_ || k < next_) {
+    stream_ = array.open();
+    next_ = 0;
+  }
+  const std::size_t size = chosen_.vertices * chosen_.coordinates;
+  if (k > next_) skip_numbers(*stream_, array.header, array.name, std::uint64_t{size} * (k - next_));
+  std::vector<double> numbers(size);
+  read_numbers(*stream_, array.header, array.name, std::span<double>(numbers));
+  next_ = k + 1;
+  char more = 0;
+  // The archive checks its sum where a member ends.
+  if (next_ == chosen_.frames && stream_->read(&more, 1) > 0)
+    throw InputError(array.name, "", "goes on behind its numbers");
+  return numbers;
+}
+
+void ArrayFrames::load_columns(const StoredArray& array, std::size_t first) {
+  const std::size_t rows = chosen_.vertices * chosen_.coordinates;
+  const std::size_t frames = chosen_.positions.size() > 1 ? 1 : chosen_.frames;
+  columns_first_ = first;
+  columns_count_ = std::min(frames - first, std::max<std::size_t>(most_columns / rows, 1));
+  columns_.resize(rows * columns_count_);
+  const auto bytes = array.open();
+  for (std::size_t row = 0; row < rows; ++row) {
+    skip_numbers(*bytes, array.header, array.name, first);
+    read_numbers(*bytes, array.header, array.name,
+                 std::span<double>(columns_).subspan(row * columns_count_, columns_count_));
+    skip_numbers(*bytes, array.header, array.name, frames - first - columns_count_);
+  }
+}
+
+std::vector<Position> ArrayFrames::positions_of(std::size_t k, const std::vector<double>& numbers) const {
+  std::vector<Position> positions(chosen_.vertices, Position{});
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    for (std::size_t c = 0; c < chosen_.coordinates; ++c) {
+      const double x = numbers[v * chosen_.coordinates + c];
+      if (!std::isfinite(x)) {
+        throw InputError(name(k), "", fmt::format("vertex {}: expected a finite coordinate, found {}", v, x));
+      }
+      positions[v][c] = x;
+    }
+  }
+  return positions;
+}
+
+}  // namespace noli
