@@ -107,7 +107,8 @@ std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
 void require_files(const std::vector<std::filesystem::path>& frames) {
   std::error_code error;
   for (const auto& frame : frames) {
-    if (!std::filesystem::exists(frame, error) || std::filesystem::is_regular_file(frame, error)) continue;
+    if (frame != "-" && !std::filesystem::exists(frame, error)) continue;
+    if (std::filesystem::is_regular_file(frame, error)) continue;
     throw UsageError("--merge-identical: reads frames twice; expected a file, not " + frame.string());
   }
 }
@@ -115,7 +116,8 @@ void require_files(const std::vector<std::filesystem::path>& frames) {
 /// Before anything else is said about a single one.
 void require_there(const std::vector<std::filesystem::path>& frames) {
   std::error_code error;
-  if (frames.size() != 1 || std::filesystem::exists(std::filesystem::status(frames[0], error))) return;
+  if (frames.size() != 1 || frames[0] == "-" || std::filesystem::exists(std::filesystem::status(frames[0], error)))
+    return;
   throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
 }
 

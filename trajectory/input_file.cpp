@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include <noli/errors.h>
 #include "trajectory/stop.h"
@@ -33,9 +34,11 @@ std::uint64_t most_bytes() {
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
+InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, path.string()) {}
+
+InputFile::InputFile(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
   // O_NONBLOCK: to open a named pipe would wait for its writer, and hear no stop.
-  descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   struct stat status = {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     const int error = errno;

@@ -18,6 +18,8 @@ class InputFile {
  public:
   /// Throws InputError without a place when it is missing, is a folder or a device, or cannot be opened.
   explicit InputFile(const std::filesystem::path& path);
+  /// The same, called so in errors.
+  InputFile(const std::filesystem::path& path, std::string name);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;

@@ -97,6 +97,11 @@ void ProofRoute::check(VerifyOutcome& outcome) {
                              *outcome.checked);
   }
   require_claim(outcome.claim, verdict->words, refuted);
+  if (frames_are_streamed()) {
+    outcome.notes.emplace_back(
+        "the checker read the frames as noli passed them on; --trajectory OUT writes them to a file that checkers "
+        "read");
+  }
   outcome.checker = version_of(Checker::plain);
   if (!refuted) outcome.verdict = Verdict::proved;
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/formats/open_frames.h"
 
+#include <algorithm>
+
 #include <noli/errors.h>
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/arrays/array_frames.h"
+#include "trajectory/formats/arrays/stream_frames.h"
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"
@@ -15,6 +18,11 @@ bool holds_frames(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
+  const auto dash = std::ranges::find(names, "-");
+  if (dash != names.end()) {
+    if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no file beside it");
+    return std::make_unique<StreamFrames>(std::make_unique<FileBytes>("/dev/stdin", "standard input"));
+  }
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);
   }

@@ -14,25 +14,21 @@ namespace {
 
 using Arrays = std::vector<const StoredArray*>;
 
-bool is_real(const StoredArray& array) { return array.header.kind == NpyHeader::Kind::real; }
+bool is_real(const NpyHeader& header) { return header.kind == NpyHeader::Kind::real; }
 
 bool is_coordinates(std::uint64_t n) { return n == 2 || n == 3; }
 
 bool holds_frames(const StoredArray& array) {
   const auto& shape = array.header.shape;
-  return array.fault.empty() && is_real(array) && shape.size() == 3 && is_coordinates(shape[2]);
+  return array.fault.empty() && is_real(array.header) && shape.size() == 3 && is_coordinates(shape[2]);
 }
 
-bool is_frame(const StoredArray& array) {
-  const auto& shape = array.header.shape;
-  return array.fault.empty() && is_real(array) && shape.size() == 2 && is_coordinates(shape[1]);
-}
+bool holds_one_frame(const StoredArray& array) { return array.fault.empty() && is_one_frame(array.header); }
 
 /// Of so many corners each; 1 is one number for each cell.
-bool holds_cells(const StoredArray& array, std::uint64_t corners) {
-  const auto& shape = array.header.shape;
-  if (!array.fault.empty() || is_real(array)) return false;
-  return corners == 1 ? shape.size() == 1 : shape.size() == 2 && shape[1] == corners;
+bool has_corners(const NpyHeader& header, std::uint64_t corners) {
+  if (is_real(header)) return false;
+  return corners == 1 ? header.shape.size() == 1 : header.shape.size() == 2 && header.shape[1] == corners;
 }
 
 class Choice {
@@ -87,7 +83,7 @@ class Choice {
     const Arrays all = that(holds_frames);
     if (all.size() == 1) return all;
     if (all.size() > 1) fail("several arrays may be the positions; name them: --keys POSITIONS,FACES");
-    const Arrays frames = that(is_frame);
+    const Arrays frames = that(holds_one_frame);
     if (frames.empty()) fail("no array has positions, real numbers of shape (frames, vertices, 3)");
     const bool one_a_file = std::ranges::adjacent_find(frames, {}, &StoredArray::file) == frames.end();
     if (frames.size() > 1 && !one_a_file)
@@ -98,7 +94,8 @@ class Choice {
   /// Faces; loose edges where there are none.
   Arrays the_cells() const {
     for (const std::uint64_t corners : {3U, 2U}) {
-      const Arrays found = that([&](const StoredArray& array) { return holds_cells(array, corners); });
+      const Arrays found =
+          that([&](const StoredArray& array) { return array.fault.empty() && has_corners(array.header, corners); });
       if (found.size() == 1) return found;
       if (found.size() > 1) {
         fail(fmt::format("several arrays may be the {}; name them: --keys POSITIONS,{}",
@@ -111,7 +108,7 @@ class Choice {
   void require_shapes() {
     const StoredArray& first = *chosen_.positions[0];
     const bool together = holds_frames(first);
-    if (!together && !is_frame(first)) {
+    if (!together && !holds_one_frame(first)) {
       throw InputError(
           first.name, "",
           fmt::format("is {}; expected positions, real numbers of shape (frames, vertices, 3)", first.header.text()));
@@ -133,7 +130,7 @@ class Choice {
                                    first.name, first.header.text()));
     }
     for (const StoredArray* const cells : chosen_.cells) {
-      if (holds_cells(*cells, 3) || holds_cells(*cells, 2) || holds_cells(*cells, 1)) continue;
+      if (is_cells(cells->header)) continue;
       throw InputError(cells->name, "",
                        fmt::format("is {}; expected cells, integers of shape (faces, 3), (edges, 2) or (points,)",
                                    cells->header.text()));
@@ -146,6 +143,14 @@ class Choice {
 };
 
 }  // namespace
+
+bool is_one_frame(const NpyHeader& header) {
+  return is_real(header) && header.shape.size() == 2 && is_coordinates(header.shape[1]);
+}
+
+bool is_cells(const NpyHeader& header) {
+  return has_corners(header, 3) || has_corners(header, 2) || has_corners(header, 1);
+}
 
 ChosenArrays choose_arrays(const std::vector<StoredArray>& arrays, const std::vector<std::string>& keys,
                            const std::string& where) {

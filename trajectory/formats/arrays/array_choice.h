@@ -35,6 +35,10 @@ struct ChosenArrays {
   std::size_t frames = 0, vertices = 0, coordinates = 3;
 };
 
+/// Whether an array has positions of one frame, real numbers (n, 3) or (n, 2); whether it has cells.
+bool is_one_frame(const NpyHeader& header);
+bool is_cells(const NpyHeader& header);
+
 /// `keys`: the positions, then cells; empty: those that can be no other. `where`: what errors call all of them.
 /// Throws InputError: nothing fits, or several do; it lists what there is.
 ChosenArrays choose_arrays(const std::vector<StoredArray>& arrays, const std::vector<std::string>& keys,

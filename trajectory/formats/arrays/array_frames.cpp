@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include <noli/errors.h>
 #include "trajectory/cells.h"
+#include "trajectory/formats/arrays/array_values.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
@@ -26,68 +25,6 @@ std::string fault_of(const NpyHeader& header, std::uint64_t bytes) {
   if (header.bytes() == bytes) return "";
   return fmt::format("is {}, which takes {} bytes, but has {}", header.text(), header.bytes(), bytes);
 }
-
-/// The number of a cell's corners in the array.
-std::size_t corners_of(const NpyHeader& header) { return header.shape.size() == 1 ? 1 : header.shape[1]; }
-
-/// Gives all cells of an array, in parts, whatever its order.
-class CellReader {
- public:
-  CellReader(const StoredArray& array, std::size_t vertices, Mesh& mesh)
-      : array_(array), vertices_(vertices), mesh_(mesh), corners_(corners_of(array.header)) {}
-
-  void read() {
-    const std::uint64_t count = array_.header.shape[0];
-    if (count > 0xffffffff) throw InputError(array_.name, "", "has more than 4294967295 cells");
-    const auto bytes = array_.open();
-    std::vector<std::int64_t> part;
-    if (array_.header.fortran && corners_ > 1) return read_columns(*bytes, count);
-    constexpr std::size_t most = 4096;
-    for (std::uint64_t done = 0; done < count; done += part.size() / corners_) {
-      part.resize(corners_ * static_cast<std::size_t>(std::min<std::uint64_t>(most, count - done)));
-      read_numbers(*bytes, array_.header, array_.name, part);
-      for (std::size_t i = 0; i < part.size(); i += corners_) add(std::span(part).subspan(i, corners_));
-    }
-  }
-
- private:
-  /// All first corners, then all second ones, ...
-  void read_columns(ByteStream& bytes, std::uint64_t count) {
-    std::vector<std::vector<std::int64_t>> columns(corners_);
-    constexpr std::size_t most = 4096;
-    for (auto& column : columns) {
-      while (column.size() < count) {
-        const std::size_t before = column.size();
-        column.resize(before + static_cast<std::size_t>(std::min<std::uint64_t>(most, count - before)));
-        read_numbers(bytes, array_.header, array_.name, std::span(column).subspan(before));
-      }
-    }
-    std::vector<std::int64_t> cell(corners_);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < corners_; ++k) cell[k] = columns[k][i];
-      add(cell);
-    }
-  }
-
-  void add(std::span<const std::int64_t> cell) {
-    std::array<VertexId, 3> corners{};
-    for (std::size_t k = 0; k < cell.size(); ++k) {
-      if (cell[k] < 0 || static_cast<std::uint64_t>(cell[k]) >= vertices_) {
-        throw InputError(array_.name, "",
-                         fmt::format("cell {} has vertex {}; expected 0 to {}", number_, cell[k], vertices_ - 1));
-      }
-      corners[k] = static_cast<VertexId>(cell[k]);
-    }
-    add_polygon(mesh_, std::span<const VertexId>(corners).first(cell.size()));
-    ++number_;
-  }
-
-  const StoredArray& array_;
-  std::size_t vertices_;
-  Mesh& mesh_;
-  std::size_t corners_;
-  std::uint64_t number_ = 0;
-};
 
 }  // namespace
 
@@ -156,7 +93,10 @@ void ArrayFrames::add_npy(const fs::path& file, std::size_t number) {
 
 void ArrayFrames::read_mesh() {
   mesh_.vertex_count = chosen_.vertices;
-  for (const StoredArray* const cells : chosen_.cells) CellReader(*cells, chosen_.vertices, mesh_).read();
+  for (const StoredArray* const cells : chosen_.cells) {
+    append_cells(mesh_, integers_of(*cells->open(), cells->header, cells->name), corners_of(cells->header),
+                 cells->name);
+  }
   drop_redundant_cells(mesh_);
 }
 
@@ -176,7 +116,7 @@ std::optional<Frame> ArrayFrames::read(std::size_t k) {
   end_if_stopped();
   const std::vector<double> numbers = numbers_of_frame(k);
   require_unchanged();
-  return Frame{mesh_, positions_of(k, numbers)};
+  return Frame{mesh_, positions_of(numbers, chosen_.coordinates, name(k))};
 }
 
 std::vector<double> ArrayFrames::numbers_of_frame(std::size_t k) {
@@ -230,20 +170,6 @@ void ArrayFrames::load_columns(const StoredArray& array, std::size_t first) {
                  std::span<double>(columns_).subspan(row * columns_count_, columns_count_));
     skip_numbers(*bytes, array.header, array.name, frames - first - columns_count_);
   }
-}
-
-std::vector<Position> ArrayFrames::positions_of(std::size_t k, const std::vector<double>& numbers) const {
-  std::vector<Position> positions(chosen_.vertices, Position{});
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    for (std::size_t c = 0; c < chosen_.coordinates; ++c) {
-      const double x = numbers[v * chosen_.coordinates + c];
-      if (!std::isfinite(x)) {
-        throw InputError(name(k), "", fmt::format("vertex {}: expected a finite coordinate, found {}", v, x));
-      }
-      positions[v][c] = x;
-    }
-  }
-  return positions;
 }
 
 }  // namespace noli

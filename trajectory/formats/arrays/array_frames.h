@@ -38,7 +38,6 @@ class ArrayFrames : public StoredFrames {
   std::vector<double> numbers_of_frame(std::size_t k);
   std::vector<double> next_in_order(const StoredArray& array, std::size_t k);
   void load_columns(const StoredArray& array, std::size_t first);
-  std::vector<Position> positions_of(std::size_t k, const std::vector<double>& numbers) const;
 
   std::unique_ptr<NpzFile> archive_;
   std::vector<StoredArray> arrays_;

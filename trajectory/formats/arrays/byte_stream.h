@@ -40,6 +40,7 @@ class FileBytes : public ByteStream {
  public:
   /// Throws as InputFile does.
   explicit FileBytes(const std::filesystem::path& path) : file_(path) {}
+  FileBytes(const std::filesystem::path& path, const std::string& name) : file_(path, name) {}
   std::size_t read(char* to, std::size_t size) override { return file_.read(to, size); }
 
  private:
