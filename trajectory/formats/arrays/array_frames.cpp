@@ -94,8 +94,10 @@ void ArrayFrames::add_npy(const fs::path& file, std::size_t number) {
 void ArrayFrames::read_mesh() {
   mesh_.vertex_count = chosen_.vertices;
   for (const StoredArray* const cells : chosen_.cells) {
-    append_cells(mesh_, integers_of(*cells->open(), cells->header, cells->name), corners_of(cells->header),
-                 cells->name);
+    const auto bytes = cells->open();
+    const std::vector<std::int64_t> vertices = integers_of(*bytes, cells->header, cells->name);
+    require_end(*bytes, cells->name);
+    append_cells(mesh_, vertices, corners_of(cells->header), cells->name);
   }
   drop_redundant_cells(mesh_);
 }
@@ -150,10 +152,7 @@ std::vector<double> ArrayFrames::next_in_order(const StoredArray& array, std::si
   std::vector<double> numbers(size);
   read_numbers(*stream_, array.header, array.name, std::span<double>(numbers));
   next_ = k + 1;
-  char more = 0;
-  // The archive checks its sum where a member ends.
-  if (next_ == chosen_.frames && stream_->read(&more, 1) > 0)
-    throw InputError(array.name, "", "goes on behind its numbers");
+  if (next_ == chosen_.frames) require_end(*stream_, array.name);
   return numbers;
 }
 
@@ -170,6 +169,7 @@ void ArrayFrames::load_columns(const StoredArray& array, std::size_t first) {
                  std::span<double>(columns_).subspan(row * columns_count_, columns_count_));
     skip_numbers(*bytes, array.header, array.name, frames - first - columns_count_);
   }
+  require_end(*bytes, array.name);
 }
 
 }  // namespace noli

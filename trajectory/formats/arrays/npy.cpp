@@ -254,6 +254,11 @@ void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string&
   }
 }
 
+void require_end(ByteStream& bytes, const std::string& name) {
+  char more = 0;
+  if (bytes.read(&more, 1) > 0) throw InputError(name, "", "goes on behind its numbers");
+}
+
 void skip_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::uint64_t count) {
   read_parts(bytes, header.size, count, name, [](const char*, std::uint64_t, std::size_t) {});
 }

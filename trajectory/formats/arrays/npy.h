@@ -42,6 +42,9 @@ std::optional<NpyHeader> read_npy_header(ByteStream& bytes, const std::string& n
 void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::span<double> numbers);
 void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::span<std::int64_t> numbers);
 
+/// Throws InputError unless the stream ends here. An archive checks the sum of a member where it ends.
+void require_end(ByteStream& bytes, const std::string& name);
+
 /// Leaves out that many numbers.
 void skip_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::uint64_t count);
 
