@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <noli/errors.h>
@@ -43,6 +44,7 @@ ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<s
   }
   const std::string where = files.size() == 1 ? files[0].string() : "the arrays";
   chosen_ = choose_arrays(arrays_, keys, where);
+  if (archive_ && keys.empty()) require_others_whole();
   read_mesh();
   describe();
 }
@@ -89,6 +91,18 @@ void ArrayFrames::add_npy(const fs::path& file, std::size_t number) {
     return opened;
   };
   arrays_.push_back(std::move(array));
+}
+
+/// That no other array fits was told by their headers: a damaged one might have been the faces.
+void ArrayFrames::require_others_whole() const {
+  std::array<char, 1 << 16> part{};
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    const StoredArray* const array = &arrays_[i];
+    if (std::ranges::count(chosen_.positions, array) + std::ranges::count(chosen_.cells, array) > 0) continue;
+    const auto bytes = archive_->open(i);
+    while (bytes->read(part.data(), part.size()) > 0) {
+    }
+  }
 }
 
 void ArrayFrames::read_mesh() {

@@ -33,6 +33,7 @@ class ArrayFrames : public StoredFrames {
  private:
   void add_npz(const std::filesystem::path& file);
   void add_npy(const std::filesystem::path& file, std::size_t number);
+  void require_others_whole() const;
   void read_mesh();
   void describe();
   std::vector<double> numbers_of_frame(std::size_t k);
