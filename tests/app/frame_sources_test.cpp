@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One motion in every form that frames have: the same verdict, the same JSON, the same proof.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/app/audits/libraries.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/worked_example.h"
+#include "tests/support/numpy.h"
+
+namespace noli::app_tests {
+namespace {
+
+using Json = nlohmann::json;
+using test::NumpyArray;
+
+constexpr std::size_t frame_count = 60, vertex_count = 6;
+
+/// A small triangle over a large one, which it comes nearer to, or goes through in the middle.
+Position position(std::size_t k, std::size_t v, bool through) {
+  static const Position corners[] = {{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 2}, {0.5, -0.5, 2}, {0, 0.5, 2}};
+  Position x = corners[v];
+  if (v >= 3) x[2] -= static_cast<double>(k) / (through ? 16 : 64);
+  return x;
+}
+
+class FrameSources : public testing::TestWithParam<bool> {
+ protected:
+  NumpyArray array(std::size_t first, std::size_t count, const std::string& type = "<f8", bool fortran = false) const {
+    NumpyArray positions{type, {count, vertex_count, 3}, {}, fortran};
+    for (std::size_t k = first; k < first + count; ++k) {
+      for (std::size_t v = 0; v < vertex_count; ++v) {
+        const Position x = position(k, v, GetParam());
+        positions.numbers.insert(positions.numbers.end(), x.begin(), x.end());
+      }
+    }
+    return positions;
+  }
+  NumpyArray frame(std::size_t k) const {
+    NumpyArray one = array(k, 1);
+    one.shape = {vertex_count, 3};
+    return one;
+  }
+
+  std::string npz(const std::string& name, const NumpyArray& positions, const NumpyArray& cells) const {
+    return folder.write(name,
+                        test::stored_zip({{"vertices_seq.npy", positions.bytes()}, {"faces.npy", cells.bytes()}}));
+  }
+
+  /// Each way to name the motion: words for the command line, and what standard input is.
+  struct Form {
+    Words words;
+    std::string input = {};
+  };
+  std::vector<Form> forms() const {
+    std::vector<Form> all;
+    for (const char* const name : {"f", "ply"}) std::filesystem::create_directories(folder.path(name));
+    Words ply, npy = {folder.write("f/faces.npy", faces.bytes())};
+    std::string stream = faces.bytes();
+    for (std::size_t k = 0; k < frame_count; ++k) {
+      std::vector<Position> x;
+      for (std::size_t v = 0; v < vertex_count; ++v) x.push_back(position(k, v, GetParam()));
+      ply.push_back(folder.write(fmt::format("ply/{}.ply", k), ply_text(x, {{0, 1, 2}, {3, 4, 5}})));
+      npy.push_back(folder.write(fmt::format("f/frame_{}.npy", k), frame(k).bytes()));
+      stream += frame(k).bytes();
+    }
+    all.push_back({ply});
+    all.push_back({{folder.path("ply")}});
+    all.push_back({npy});
+    for (const char* const type : {"<f8", ">f8", "<f4", ">f4"}) {
+      for (const bool fortran : {false, true}) {
+        NumpyArray cells = faces;
+        cells.fortran = fortran;
+        const std::string name = fmt::format("{}{}{}.npz", type[0] == '<' ? "l" : "b", type[2], fortran ? "f" : "c");
+        all.push_back({{npz(name, array(0, frame_count, type, fortran), cells)}});
+      }
+    }
+    all.push_back({{folder.write("motion.npy", array(0, frame_count).bytes()), npy[0]}});
+    all.push_back({{"-"}, folder.write("stream.bin", stream)});
+    all.push_back({{folder.path("motion.frames")}});
+    return all;
+  }
+
+  std::pair<std::string, int> noli(const std::string& command, const Form& form, const std::string& more) const {
+    std::string line = std::string(NOLI_COMMAND) + " " + command;
+    for (const std::string& word : form.words) line += " '" + word + "'";
+    return shell(line + " " + more + (form.input.empty() ? " </dev/null" : " <" + form.input) + " 2>&1");
+  }
+  static Json without(Json json) {
+    for (const char* const member : {"inputs", "notes", "timing"}) json.erase(member);
+    for (const char* const member : {"notes", "order"}) json["statement"].erase(member);
+    return json;
+  }
+
+  NumpyArray faces = {"<i8", {2, 3}, {0, 1, 2, 3, 4, 5}};
+  Folder folder;
+};
+INSTANTIATE_TEST_SUITE_P(All, FrameSources, testing::Bool(),
+                         [](const auto& through) { return through.param ? "through" : "apart"; });
+
+TEST_P(FrameSources, GiveOneAnswer) {
+  const int expected_code = GetParam() ? 1 : 0;
+  Json expected;
+  std::string proof;
+  for (const Form& form : forms()) {
+    const std::string& name = form.words[0];
+    const std::string outputs = fmt::format("--keep-going --json {} --proof {} --trajectory {} --force",
+                                            folder.path("r.json"), folder.path("p.noli"), folder.path("out.frames"));
+    const auto [out, code] = noli("verify", form, outputs);
+    ASSERT_EQ(code, expected_code) << name << out;
+    const Json json = without(Json::parse(test::read_text(folder.path("r.json"))));
+    const std::string found = test::read_text(folder.path("p.noli"));
+    if (expected.is_null()) {
+      expected = json;
+      proof = found;
+      folder.write("motion.frames", test::read_text(folder.path("out.frames")));
+      folder.write("first.noli", proof);
+      EXPECT_EQ(json["verdict"], GetParam() ? "contact" : "proved");
+    }
+    EXPECT_EQ(json, expected) << name;
+    EXPECT_TRUE(found == proof) << name;
+    EXPECT_TRUE(test::read_text(folder.path("out.frames")) == test::read_text(folder.path("motion.frames"))) << name;
+    // The proof of the PLY files is checked against this form, by both checkers.
+    for (const std::string checker : {"", " --verified"}) {
+      if (!form.input.empty() && !checker.empty()) continue;
+      const auto [words, verdict] = noli("check" + checker + " " + folder.path("first.noli"), form, "");
+      EXPECT_EQ(verdict, expected_code) << name << checker << words;
+    }
+  }
+}
+
+TEST_P(FrameSources, ShowTheFirstContact) {
+  if (!GetParam()) return;
+  for (const Form& form : forms()) {
+    if (!form.input.empty() || form.words[0].ends_with("motion.frames")) continue;
+    const std::string& name = form.words[0];
+    ASSERT_EQ(noli("verify", form, "--json " + folder.path("r.json") + " --force").second, 1);
+    const Process shown = run_noli({"export", folder.path("r.json"), "-o", folder.path("hits.vtu")});
+    EXPECT_EQ(shown.exit_code, 0) << name << shown.err;
+    std::filesystem::remove(folder.path("hits.vtu"));
+  }
+}
+
+}  // namespace
+}  // namespace noli::app_tests
