@@ -68,7 +68,10 @@ std::optional<CheckerVerdict> in_a_file(CheckRequest request, FrameSource& frame
 
 bool checkers_read(const std::vector<std::filesystem::path>& frames) {
   if (frames.size() == 1 && begins_as_blocks(frames[0])) return true;
-  return std::ranges::all_of(frames, is_frame_name);
+  return std::ranges::all_of(frames, [](const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".ply" || extension == ".obj";
+  });
 }
 
 std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames) {

@@ -145,5 +145,24 @@ TEST_P(FrameSources, ShowTheFirstContact) {
   }
 }
 
+/// What `noli export` writes of a run: files of ParaView, its series, and PLY.
+TEST(ExportedFrames, AreTheSameInEachFormat) {
+  const Folder folder;
+  const std::string run = folder.path("run");
+  const std::string scene = std::string(NOLI_SOURCE_DIR) + "/scenes/swinging_cloth.json";
+  ASSERT_EQ(run_noli({"simulate", scene, "--short", "--until", "0.1", "-o", run, "-q"}).exit_code, 0);
+  for (const char* const pattern : {"v_%02d.vtu", "p_%02d.ply"}) {
+    ASSERT_EQ(run_noli({"export", run, "--fps", "50", "-o", folder.path(pattern)}).exit_code, 0);
+  }
+  std::string expected;
+  for (const char* const name : {"p_%02d.ply", "v_%02d.vtu", "v.pvd"}) {
+    const std::string proof = folder.path("p.noli");
+    const Process process = run_noli({"verify", folder.path(name), "--proof", proof, "--force"});
+    EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
+    if (expected.empty()) expected = test::read_text(proof);
+    EXPECT_TRUE(test::read_text(proof) == expected) << name;
+  }
+}
+
 }  // namespace
 }  // namespace noli::app_tests

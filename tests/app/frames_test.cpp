@@ -146,7 +146,7 @@ TEST_F(Frames, AllHeadersComeBeforeTheFirstStep) {
   folder.write("cloth_10.ply", "ply\nformat ascii 3.0\n");
   refused(with({"verify"}, frames), frames[10] + ": line 2: expected version 1.0, found '3.0' (frame 11 of 12)");
   folder.write("cloth_10.ply", good);
-  for (const auto& [extension, advice] : {std::pair{".npz", "meshio.Mesh("},
+  for (const auto& [extension, advice] : {std::pair{".h5", "numpy.savez("},
                                           {".abc", "Blender"},
                                           {".usd", "Blender"},
                                           {".stl", "no shared vertices"},
@@ -155,7 +155,7 @@ TEST_F(Frames, AllHeadersComeBeforeTheFirstStep) {
     other[10] = folder.write(std::string("cloth_10") + extension, "x");
     refused(with({"verify"}, other), advice);
   }
-  refused({"verify", folder.write("motion.npz", "x")}, "meshio.Mesh(");
+  refused({"verify", folder.write("motion.npz", "x")}, "cannot be read as an archive of numpy");
   EXPECT_EQ(run_noli(with({"verify"}, frames)).exit_code, 1);
 }
 

@@ -289,6 +289,15 @@ TEST(FramesOfOthers, AllHaveTheSameMotion) {
   sources.push_back(open_frames({data / "positions.npy", data / "faces.npy"}));
   sources.push_back(open_frames({data / "meshio_0.ply", data / "meshio_1.ply", data / "meshio_2.ply"}));
   sources.push_back(std::make_unique<StreamFrames>(std::make_unique<FileBytes>(data / "stream.bin")));
+  for (const std::string name :
+       {"text_%.vtu", "base64_%.vtp", "zlib_%.vtu", "appended_%.vtu", "raw_%.vtp", "single_%.vtu", "meshio_%.vtu"}) {
+    const std::size_t percent = name.find('%');
+    Paths frames;
+    for (const char* const k : {"0", "1", "2"}) {
+      frames.push_back(data / (name.substr(0, percent) + k + name.substr(percent + 1)));
+    }
+    sources.push_back(open_frames(frames));
+  }
   for (const auto& source : sources) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto found = source->read(k);

@@ -145,9 +145,9 @@ const OtherFrame other_frames[] = {
     {"relative", "b.obj", v3 + "f -1 -2 -3\n",
      "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh"},
     {"extension", "b.stl", "solid\n",
-     "expected a file that ends in .ply or .obj, found '.stl'; " + conversion_advice("b.stl")},
+     "expected a file that ends in .ply, .obj, .vtu or .vtp, found '.stl'; " + conversion_advice("b.stl")},
     {"packed", "b.obj.gz", "\x1f\x8b",
-     "expected a file that ends in .ply or .obj, found '.gz'; unpack it: gunzip -k b.obj.gz"},
+     "expected a file that ends in .ply, .obj, .vtu or .vtp, found '.gz'; unpack it: gunzip -k b.obj.gz"},
     {"header", "b.ply", "ply\nformat ascii 2.0\n", "line 2: expected version 1.0, found '2.0'"},
     {"truncated", "b.ply", ply(0, PlyEncoding::binary_little_endian).substr(0, 200),
      "byte 173: truncated: the header promises 3 entries of 'vertex', at least 24 bytes each, but only 27 bytes "
@@ -254,13 +254,13 @@ TEST(FrameInputs, PipesAreNotTouchedBeforeTheyAreRead) {
 TEST(FrameFormats, SayWhatToDoWithOthers) {
   EXPECT_EQ(mesh_format("a.PLY"), MeshFormat::ply);
   EXPECT_EQ(mesh_format("a.b.Obj"), MeshFormat::obj);
-  for (const char* const name : {"a.npz", "a.npy", "a.abc", "a.usd", "a.usda", "a.usdc", "a.usdz", "a.stl", "a.vtk",
-                                 "a.vtu", "a.gz", "a.glb", "a.gltf", "a.FBX"}) {
+  for (const char* const name : {"a.h5", "a.mat", "a.abc", "a.usd", "a.usda", "a.usdc", "a.usdz", "a.stl", "a.vtk",
+                                 "a.off", "a.gz", "a.glb", "a.gltf", "a.FBX"}) {
     EXPECT_NE(conversion_advice(name), "") << name;
     EXPECT_EQ(conversion_advice(name).find('\n'), std::string::npos);
     EXPECT_NE(input_error([&] { mesh_format(name); }).find(conversion_advice(name)), std::string::npos);
   }
-  EXPECT_EQ(conversion_advice("frames/cloth_1.vtu"), "convert it: meshio convert cloth_1.vtu cloth_1.ply");
+  EXPECT_EQ(conversion_advice("frames/cloth_1.vtk"), "convert it: meshio convert cloth_1.vtk cloth_1.ply");
   EXPECT_EQ(conversion_advice("a.xyz"), "");
 }
 

@@ -37,10 +37,10 @@ TEST(Frames, ExtensionDecides) {
   const std::string ply = format_ply(rising(0), PlyEncoding::ascii);
   EXPECT_EQ(read_frame(folder.write("a.Ply", ply)).mesh.faces.size(), 1u);
   EXPECT_EQ(input_error([&] { read_frame(folder.write("a.stl", ply)); }),
-            (folder / "a.stl").string() + ": expected a file that ends in .ply or .obj, found '.stl'; " +
+            (folder / "a.stl").string() + ": expected a file that ends in .ply, .obj, .vtu or .vtp, found '.stl'; " +
                 conversion_advice("a.stl"));
   EXPECT_EQ(input_error([&] { read_frame(folder.write("a", ply)); }),
-            (folder / "a").string() + ": expected a file that ends in .ply or .obj, found ''");
+            (folder / "a").string() + ": expected a file that ends in .ply, .obj, .vtu or .vtp, found ''");
 }
 
 TEST(Frames, LinearStepsJoinSuccessiveFrames) {

@@ -10,6 +10,7 @@
 
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply_header.h"
+#include "trajectory/formats/vtk/vtu.h"
 #include "trajectory/input_file.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
@@ -59,6 +60,36 @@ std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& fac
   take_digits(digits, digits_of_float64, facts);
   if (continued) return std::nullopt;
   cells.add(facts.vertices);
+  return cells.hash();
+}
+
+/// There is no short way to the cells: it is parsed.
+std::optional<std::uint64_t> look_at_vtk(std::string_view bytes, const std::string& file, FrameFacts& facts) {
+  const Mesh mesh = parse_vtk(bytes, file).mesh;
+  facts.vertices = mesh.vertex_count;
+  const VtkNumbers numbers = vtk_numbers(bytes, file);
+  facts.numbers = numbers.type == "Float32" ? "float32" : "float64";
+  if (!numbers.text.empty()) {
+    TextDigits digits;
+    Lines lines(numbers.text);
+    for (std::string_view line; lines.next(line);) {
+      end_if_stopped();
+      for (Words words(line); !words.at_end();) digits.add(words.next());
+    }
+    take_digits(digits, numbers.type == "Float32" ? digits_of_float32 : digits_of_float64, facts);
+    if (numbers.type == "Float32") facts.numbers += ", read as float32";
+  }
+  Spelling cells;
+  cells.add(mesh.vertex_count);
+  for (const auto& face : mesh.faces) {
+    for (const VertexId v : face) cells.add(v);
+  }
+  cells.add(mesh.faces.size());
+  for (const auto& edge : mesh.edges) {
+    for (const VertexId v : edge) cells.add(v);
+  }
+  cells.add(mesh.edges.size());
+  for (const VertexId v : mesh.points) cells.add(v);
   return cells.hash();
 }
 
@@ -200,6 +231,7 @@ FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& pat
   switch (mesh_format(path)) {
     case MeshFormat::ply: look.cells = PlyLook(bytes, path.string(), look.facts).cells(); break;
     case MeshFormat::obj: look.cells = look_at_obj(bytes, look.facts); break;
+    case MeshFormat::vtk: look.cells = look_at_vtk(bytes, path.string(), look.facts); break;
   }
   return look;
 }

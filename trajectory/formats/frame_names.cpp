@@ -13,6 +13,7 @@
 #include <noli/frames.h>
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/vtk/pvd.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -118,6 +119,8 @@ Paths named_frames(const Paths& given) {
       add(of_list(name.string().substr(1)));
     } else if (fs::is_directory(name, error) && !fs::exists(trajectory_path(name), error)) {
       add(of_folder(name));
+    } else if (extension_of(name) == ".pvd") {
+      add(files_of_pvd(name));
     } else if (!fs::exists(fs::symlink_status(name, error)) && is_pattern(name)) {
       add(of_pattern(name));
     } else {

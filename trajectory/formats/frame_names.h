@@ -5,9 +5,10 @@
 //   DIR            the frames in a folder, which are all of one format; not for the folder of a run
 //   shirt_*.obj    the files that match: * is any text, ? any letter, [a-c] one of those
 //   f/%04d.ply     the files with a number there; %d takes numbers without leading zeros
+//   cloth.pvd      the files of a series of ParaView
 //   @frames.txt    the lines of a file; paths are relative to its folder, and # begins a comment
 //
-// All but the lines of a file are sorted by the numbers in their names (noli/frames.h, FrameOrder::natural). A name
+// All but those of a series and a list are sorted by the numbers in their names (noli/frames.h, FrameOrder::natural). A name
 // that is there as it stands is a file, whatever letters it has.
 #pragma once
 

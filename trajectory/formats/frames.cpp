@@ -13,6 +13,7 @@
 #include <noli/errors.h>
 #include "trajectory/formats/obj.h"
 #include "trajectory/formats/ply.h"
+#include "trajectory/formats/vtk/vtu.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -37,8 +38,8 @@ void require_same_cells(std::string_view what, const std::vector<Cell>& expected
 // --- Formats ---------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view arrays =
-    "write each frame as PLY from Python, which keeps float64: "
-    "meshio.Mesh(points, [(\"triangle\", faces)]).write(\"frame_0.ply\")";
+    "write positions (frames, vertices, 3) and faces from Python: numpy.savez(\"motion.npz\", x=positions, "
+    "faces=faces)";
 constexpr std::string_view scene =
     "import it into Blender and export Wavefront OBJ with Animation: one file for each frame; its text has 6 decimals";
 constexpr std::string_view soup =
@@ -48,12 +49,11 @@ constexpr std::string_view soup =
 struct Advice {
   std::string_view extension, text;
 };
-constexpr std::array<Advice, 24> advices = {
-    {{".npz", arrays},     {".npy", arrays},   {".h5", arrays},        {".hdf5", arrays},    {".mat", arrays},
-     {".abc", scene},      {".usd", scene},    {".usda", scene},       {".usdc", scene},     {".usdz", scene},
-     {".glb", scene},      {".gltf", scene},   {".fbx", scene},        {".dae", scene},      {".blend", scene},
-     {".stl", soup},       {".vtk", "meshio"}, {".vtu", "meshio"},     {".vtp", "ParaView"}, {".off", "meshio"},
-     {".gz", "gunzip -k"}, {".xz", "unxz -k"}, {".bz2", "bunzip2 -k"}, {".zst", "unzstd"}}};
+constexpr std::array<Advice, 20> advices = {
+    {{".h5", arrays},    {".hdf5", arrays},    {".mat", arrays},   {".abc", scene},        {".usd", scene},
+     {".usda", scene},   {".usdc", scene},     {".usdz", scene},   {".glb", scene},        {".gltf", scene},
+     {".fbx", scene},    {".dae", scene},      {".blend", scene},  {".stl", soup},         {".vtk", "meshio"},
+     {".off", "meshio"}, {".gz", "gunzip -k"}, {".xz", "unxz -k"}, {".bz2", "bunzip2 -k"}, {".zst", "unzstd"}}};
 
 }  // namespace
 
@@ -66,6 +66,7 @@ Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Pol
   switch (mesh_format(path)) {
     case MeshFormat::ply: return parse_ply(bytes, path.string(), polygons);
     case MeshFormat::obj: return parse_obj(bytes, path.string(), polygons);
+    case MeshFormat::vtk: return parse_vtk(bytes, path.string(), polygons);
   }
   throw std::logic_error("a format of meshes without a reader");
 }
@@ -94,7 +95,6 @@ std::string conversion_advice(const std::filesystem::path& path) {
   if (found->text == arrays || found->text == scene || found->text == soup) return std::string(found->text);
   const std::string name = path.filename().string(), stem = path.stem().string();
   if (found->text == "meshio") return fmt::format("convert it: meshio convert {} {}.ply", name, stem);
-  if (found->text == "ParaView") return fmt::format("open it in ParaView and save the data as {}.ply", stem);
   return fmt::format("unpack it: {} {}", found->text, name);
 }
 
@@ -110,6 +110,7 @@ namespace {
 std::optional<MeshFormat> format_of(std::string_view extension) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".vtu" || extension == ".vtp") return MeshFormat::vtk;
   return std::nullopt;
 }
 
@@ -122,8 +123,8 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const auto format = format_of(extension)) return *format;
   const std::string advice = conversion_advice(path);
   throw InputError(path.string(), "",
-                   fmt::format("expected a file that ends in .ply or .obj, found {}{}{}", in_quotes(extension),
-                               advice.empty() ? "" : "; ", advice));
+                   fmt::format("expected a file that ends in .ply, .obj, .vtu or .vtp, found {}{}{}",
+                               in_quotes(extension), advice.empty() ? "" : "; ", advice));
 }
 
 }  // namespace noli

@@ -33,15 +33,15 @@ bool all_z_equal(std::span<const Position> positions);
 /// ".ply": in lower case.
 std::string extension_of(const std::filesystem::path& path);
 
-enum class MeshFormat { ply, obj };
+enum class MeshFormat { ply, obj, vtk };
 
 /// Whether a file of this name is a frame, by its extension.
 bool is_frame_name(const std::filesystem::path& path);
 
-/// By the extension, in any case. Throws InputError for all but .ply and .obj, with conversion_advice().
+/// By the extension, in any case: .ply, .obj, .vtu, .vtp. Throws InputError for all others, with conversion_advice().
 MeshFormat mesh_format(const std::filesystem::path& path);
 
-/// How to make frames of a file by its extension (.npz .npy .abc .usd .stl .vtk .vtu .gz .glb .fbx and others), one
+/// How to make frames of a file by its extension (.h5 .abc .usd .stl .vtk .gz .glb .fbx and others), one
 /// line; "" for extensions that are not known.
 std::string conversion_advice(const std::filesystem::path& path);
 

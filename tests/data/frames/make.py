@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the files in this folder: one motion of three frames, as writers that are not ours write it.
 
-    python3 make.py        with numpy 1.24 and meshio 5.0 (Debian: python3-numpy, python3-meshio)
+    python3 make.py        with numpy 1.24, meshio 5.0, VTK 9.1 (Debian: python3-numpy, python3-meshio, python3-vtk9)
 
 A triangle sinks towards another one; coordinates are multiples of 1/64, so that float32 has them exactly."""
 import io, zipfile
@@ -26,3 +26,41 @@ with open("stream.bin", "wb") as stream:
     for x in frames: np.save(stream, x)
 for k, x in enumerate(frames):
     meshio.Mesh(x, [("triangle", faces.astype(np.int32))]).write(f"meshio_{k}.ply")
+
+# VTK's own writers: text, base64 and raw; compressed or not; lengths of 32 and 64 bits; either byte order; both kinds.
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk
+
+def vtk_mesh(kind, x):
+    points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
+    points.SetData(numpy_to_vtk(x, deep=True))
+    for face in faces: cells.InsertNextCell(3, face)
+    if kind == "vtp":
+        mesh = vtk.vtkPolyData()
+        mesh.SetPolys(cells)
+    else:
+        mesh = vtk.vtkUnstructuredGrid()
+        mesh.SetCells(vtk.VTK_TRIANGLE, cells)
+    mesh.SetPoints(points)
+    return mesh
+
+def write_vtk(name, k, mode, encoded=True, compressed=False, bits=32, big=False):
+    kind = name[-3:]
+    writer = vtk.vtkXMLPolyDataWriter() if kind == "vtp" else vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(name)
+    writer.SetInputData(vtk_mesh(kind, frames[k].astype(np.float32) if name.startswith("single") else frames[k]))
+    {"ascii": writer.SetDataModeToAscii, "binary": writer.SetDataModeToBinary, "appended": writer.SetDataModeToAppended}[mode]()
+    if not encoded: writer.EncodeAppendedDataOff()
+    if not compressed: writer.SetCompressorTypeToNone()
+    if bits == 64: writer.SetHeaderTypeToUInt64()
+    if big: writer.SetByteOrderToBigEndian()
+    writer.Write()
+
+for k in range(3):
+    write_vtk(f"text_{k}.vtu", k, "ascii")
+    write_vtk(f"base64_{k}.vtp", k, "binary", bits=64, big=True)
+    write_vtk(f"zlib_{k}.vtu", k, "binary", compressed=True)
+    write_vtk(f"appended_{k}.vtu", k, "appended", compressed=True, bits=64)
+    write_vtk(f"raw_{k}.vtp", k, "appended", encoded=False)
+    write_vtk(f"single_{k}.vtu", k, "appended", encoded=False, compressed=True)
+    meshio.Mesh(frames[k], [("triangle", faces)]).write(f"meshio_{k}.vtu")

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory/formats/vtk/vtu.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <noli/errors.h>
+#include "trajectory/cells.h"
+#include "trajectory/formats/vtk/vtk_xml.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+
+namespace noli {
+namespace {
+
+constexpr std::array<std::string_view, 2> mesh_types = {"UnstructuredGrid", "PolyData"};
+
+/// vtkCellType.h
+enum VtkCell : std::int64_t {
+  vtk_empty = 0,
+  vtk_vertex = 1,
+  vtk_poly_vertex = 2,
+  vtk_line = 3,
+  vtk_poly_line = 4,
+  vtk_triangle = 5,
+  vtk_triangle_strip = 6,
+  vtk_polygon = 7,
+  vtk_pixel = 8,
+  vtk_quad = 9
+};
+
+class VtkMesh {
+ public:
+  VtkMesh(std::string_view bytes, const std::string& file, Polygons* polygons)
+      : xml_(bytes, file, mesh_types), polygons_(polygons) {}
+
+  Frame read() {
+    for (const pugi::xml_node piece : xml_.content().children("Piece")) read_piece(piece);
+    drop_redundant_cells(frame_.mesh);
+    return std::move(frame_);
+  }
+
+ private:
+  void read_piece(const pugi::xml_node& piece) {
+    end_if_stopped();
+    first_ = frame_.positions.size();
+    read_points(piece);
+    if (std::string_view(xml_.content().name()) == "UnstructuredGrid") {
+      const pugi::xml_node cells = piece.child("Cells");
+      const auto types = xml_.integers(named(cells, "types"));
+      read_cells(
+          cells, [&](std::size_t i) { return types[i]; }, types.size());
+      return;
+    }
+    for (const auto& [name, type] : {std::pair{"Verts", vtk_poly_vertex},
+                                     {"Lines", vtk_poly_line},
+                                     {"Strips", vtk_triangle_strip},
+                                     {"Polys", vtk_polygon}}) {
+      const pugi::xml_node cells = piece.child(name);
+      if (!cells.child("DataArray")) continue;
+      read_cells(
+          cells, [t = type](std::size_t) { return std::int64_t{t}; }, std::nullopt);
+    }
+  }
+
+  pugi::xml_node named(const pugi::xml_node& parent, const char* name) const {
+    const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
+    if (!array) throw InputError(xml_.file(), parent.name(), fmt::format("has no DataArray {}", in_quotes(name)));
+    return array;
+  }
+
+  void read_points(const pugi::xml_node& piece) {
+    const pugi::xml_node array = piece.child("Points").child("DataArray");
+    if (!array) throw InputError(xml_.file(), "Points", "has no DataArray");
+    const std::vector<double> numbers = xml_.reals(array);
+    const auto count = announced(piece, "NumberOfPoints");
+    if (numbers.size() % 3 != 0 || numbers.size() / 3 != count) {
+      xml_.fail(array, fmt::format("has {} numbers, but there are {} points", numbers.size(), count));
+    }
+    if (frame_.positions.size() + count > 0xffffffff) xml_.fail(array, "has more than 4294967295 points");
+    for (std::size_t i = 0; i < numbers.size(); i += 3) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::isfinite(numbers[i + k])) {
+          xml_.fail(array, fmt::format("point {}: expected a finite coordinate, found {}", i / 3, numbers[i + k]));
+        }
+      }
+      frame_.positions.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    }
+    frame_.mesh.vertex_count = frame_.positions.size();
+  }
+
+  std::uint64_t announced(const pugi::xml_node& piece, const char* what) const {
+    std::uint64_t count = 0;
+    if (parse_number(std::string_view(piece.attribute(what).value()), count) != std::errc{}) {
+      throw InputError(xml_.file(), "Piece", fmt::format("has no {}", what));
+    }
+    return count;
+  }
+
+  template <class TypeOf>
+  void read_cells(const pugi::xml_node& cells, const TypeOf& type_of, std::optional<std::size_t> count) {
+    const pugi::xml_node ends = named(cells, "offsets");
+    const std::vector<std::int64_t> offsets = xml_.integers(ends);
+    const std::vector<std::int64_t> corners = xml_.integers(named(cells, "connectivity"));
+    if (count && offsets.size() != *count)
+      xml_.fail(ends, fmt::format("has {} numbers for {} cells", offsets.size(), *count));
+    std::int64_t begin = 0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const std::int64_t end = offsets[i];
+      if (end < begin || end > static_cast<std::int64_t>(corners.size())) {
+        xml_.fail(ends, fmt::format("cell {} ends at {} of {} corners", i, end, corners.size()));
+      }
+      cell_.clear();
+      for (std::int64_t at = begin; at < end; ++at)
+        cell_.push_back(vertex(cells, corners[static_cast<std::size_t>(at)]));
+      add_cell(cells, i, type_of(i));
+      begin = end;
+    }
+  }
+
+  VertexId vertex(const pugi::xml_node& cells, std::int64_t v) const {
+    const auto there = static_cast<std::int64_t>(frame_.positions.size() - first_);
+    if (v < 0 || v >= there) {
+      throw InputError(xml_.file(), cells.name(), fmt::format("a cell has point {}; expected 0 to {}", v, there - 1));
+    }
+    return static_cast<VertexId>(first_ + static_cast<std::size_t>(v));
+  }
+
+  void add_cell(const pugi::xml_node& cells, std::size_t number, std::int64_t type) {
+    const auto require = [&](bool holds) {
+      if (holds) return;
+      throw InputError(xml_.file(), cells.name(),
+                       fmt::format("cell {} of type {} has {} points", number, type, cell_.size()));
+    };
+    const std::span<const VertexId> c(cell_);
+    switch (type) {
+      case vtk_empty: return;
+      case vtk_vertex: require(c.size() == 1); return add_polygon(frame_.mesh, c);
+      case vtk_poly_vertex:
+        for (std::size_t i = 0; i < c.size(); ++i) add_polygon(frame_.mesh, c.subspan(i, 1));
+        return;
+      case vtk_line: require(c.size() == 2); return add_polygon(frame_.mesh, c);
+      case vtk_poly_line:
+        require(c.size() >= 2);
+        for (std::size_t i = 0; i + 1 < c.size(); ++i) add_polygon(frame_.mesh, c.subspan(i, 2));
+        return;
+      case vtk_triangle: require(c.size() == 3); return add_polygon(frame_.mesh, c);
+      case vtk_triangle_strip:
+        require(c.size() >= 3);
+        for (std::size_t i = 0; i + 2 < c.size(); ++i) {
+          const std::size_t odd = i % 2;  // every other one is the other way round
+          add_polygon(frame_.mesh, std::array{c[i], c[i + 1 + odd], c[i + 2 - odd]});
+        }
+        return;
+      case vtk_polygon: require(c.size() >= 3); return add_face(cells, number);
+      case vtk_quad: require(c.size() == 4); return add_face(cells, number);
+      case vtk_pixel:
+        require(c.size() == 4);
+        std::swap(cell_[2], cell_[3]);
+        return add_face(cells, number);
+      default:
+        throw InputError(xml_.file(), cells.name(),
+                         fmt::format("cell {} has type {}; expected points, lines, triangles or polygons (in ParaView: "
+                                     "Extract Surface, Triangulate)",
+                                     number, type));
+    }
+  }
+
+  void add_face(const pugi::xml_node& cells, std::size_t number) {
+    if (cell_.size() > 3 && polygons_ != nullptr) {
+      if (polygons_->rule == PolygonRule::refuse) {
+        throw InputError(xml_.file(), cells.name(), fmt::format("cell {}: {}", number, refused_polygon(cell_.size())));
+      }
+      polygons_->fans.push_back({frame_.mesh.faces.size(), cell_.size() - 2});
+    }
+    add_polygon(frame_.mesh, cell_);
+  }
+
+  VtkXml xml_;
+  Polygons* polygons_;
+  Frame frame_;
+  std::size_t first_ = 0;  ///< vertex of the piece
+  std::vector<VertexId> cell_;
+};
+
+}  // namespace
+
+Frame parse_vtk(std::string_view bytes, const std::string& file, Polygons* polygons) {
+  return VtkMesh(bytes, file, polygons).read();
+}
+
+VtkNumbers vtk_numbers(std::string_view bytes, const std::string& file) {
+  const VtkXml xml(bytes, file, mesh_types);
+  const pugi::xml_node array = xml.content().child("Piece").child("Points").child("DataArray");
+  VtkNumbers numbers{xml.type_of(array), ""};
+  if (xml.is_text(array)) numbers.text = xml.text_of(array);
+  return numbers;
+}
+
+}  // namespace noli
