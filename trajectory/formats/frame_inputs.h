@@ -6,10 +6,9 @@
 //   for (std::size_t k = 0; k < paths.size(); ++k) inputs.look_at(k);
 //   FrameSequence sequence(paths, motion, inputs.reader());
 //
-// In memory: the file of one frame, and the cells of one mesh where files spell the same cells differently.
+// In memory: the file of one frame, and the cells of one mesh if files spell the same cells differently.
 //
-// What this does not do: it opens nothing but regular files before they are read. A look would take its content from a
-// pipe.
+// look_at() opens only regular files: a look would consume the content of a pipe.
 #pragma once
 
 #include <cstddef>
@@ -30,29 +29,30 @@ namespace noli {
 
 class FrameInputs {
  public:
-  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)".
+  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; the message ends with "(frame 11 of
+  /// 12)".
   explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
 
-  /// Looks at frame k, if it is a regular file: header, counts, and that its cells are those of the first frame that
-  /// was looked at. Throws InputError, which ends as above; ReadInterrupted.
+  /// Looks at frame k, if it is a regular file: checks header, counts, and that its cells are those of the first frame
+  /// that was looked at. Throws InputError, whose message ends as above; ReadInterrupted.
   void look_at(std::size_t k);
 
   /// Reads frame k for a FrameSequence. Throws InputError as parse_frame does, and when the file has changed since it
   /// was looked at.
   Frame read(std::size_t k);
-  /// Calls read(); valid as long as this is.
+  /// Calls read(); valid as long as this object lives.
   ReadFrame reader();
 
   /// One per frame.
   const std::vector<FrameFacts>& facts() const { return facts_; }
-  /// Gives them away; this is of no more use.
+  /// Moves the facts out; the object must not be used afterwards.
   std::vector<FrameFacts> take_facts() { return std::move(facts_); }
-  /// How many polygons of more than three corners a frame has at most, and their largest non-planarity (polygons.h) in
-  /// all frames that were read.
+  /// The largest number of polygons with more than three corners in a frame, and the largest non-planarity (polygons.h)
+  /// in all frames that were read.
   std::size_t polygons() const { return polygons_; }
   double non_planarity() const { return non_planarity_; }
 
-  /// What to know of text and polygons, a line each.
+  /// Remarks on decimal text and polygons, one line each.
   std::vector<std::string> notes() const;
 
  private:
@@ -62,7 +62,7 @@ class FrameInputs {
 
   PolygonRule rule_;
   std::vector<FrameFacts> facts_;
-  std::optional<std::size_t> first_;             ///< the frame that others are compared with
+  std::optional<std::size_t> first_;             ///< the frame with which others are compared
   std::set<std::optional<std::uint64_t>> same_;  ///< spellings of its cells
   std::optional<Mesh> mesh_;                     ///< its cells, once they had to be parsed
   std::vector<bool> read_;                       ///< of each frame

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames of one mesh as files, taken two at a time.
+// Reads the frames of one mesh from files, two at a time.
 //
 // Notation
-//   frame k    the k-th file, k = 0 .. n - 1; the mesh is that of frame 0, and all others must have the same
+//   frame k    the k-th file, k = 0 .. n - 1; all frames must have the mesh of frame 0
 //   step k     Motion::linear: from frame k to frame k + 1, n - 1 steps
 //              Motion::constant: frame k stands still, n steps
 //
-// What this does not do: it reads nothing ahead and keeps nothing behind, so at most the positions of two frames and
-// the file of one are in memory.
+// It does not read ahead, so at most the positions of two frames and the file of one are in memory.
 #pragma once
 
 #include <cstddef>
@@ -24,11 +23,11 @@
 
 namespace noli {
 
-/// Reads a frame; the extension says how (mesh_format). Throws InputError, also for other extensions.
+/// Reads a frame; the extension decides how (mesh_format). Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
 
-/// The same for the bytes of a file; `path` says how to read them and is what errors call them.
-/// `polygons`: what to do with those, and where they are noted.
+/// The same for the bytes of a file; `path` decides how to read them, and errors name it. `polygons`: the rule for
+/// polygons, which are also listed there.
 Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Polygons* polygons = nullptr);
 
 /// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first
@@ -36,13 +35,13 @@ Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Pol
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,
                        const std::filesystem::path& found_path);
 
-/// Whether all z are equal (as numbers): then nothing leaves a plane z = const, which may be another one in the next
-/// frame, and the step may be decided in two dimensions. True for no positions.
+/// Whether all z are equal (as numbers). If so in both frames of a step, even with different z, the step may be decided
+/// in two dimensions. True for no positions.
 bool all_z_equal(std::span<const Position> positions);
 
 enum class Motion {
   linear,   ///< between successive frames each vertex moves at constant velocity
-  constant  ///< each frame is a moment of its own
+  constant  ///< each frame by itself, at rest
 };
 
 /// How a sequence reads frame k; read_frame() for example.
@@ -61,10 +60,10 @@ class FrameSequence {
   std::size_t step_count() const { return motion_ == Motion::linear ? paths_.size() - 1 : paths_.size(); }
 
   /// Reads what the next step needs and moves to it; false when there is none. Throws InputError as read_frame and
-  /// require_same_mesh do; the sequence must not be used any more then.
+  /// require_same_mesh do; after that the sequence must not be used.
   bool next();
 
-  /// Number of the current step, from 0. This and all below: precondition: next() returned true.
+  /// Number of the current step, from 0. Precondition of this and all below: next() returned true.
   std::size_t step() const { return frames_read_ - (motion_ == Motion::linear ? 2 : 1); }
   const Mesh& mesh() const { return mesh_; }
   std::span<const Position> x_t0() const { return motion_ == Motion::linear ? x_t0_ : x_t1_; }
@@ -83,16 +82,17 @@ class FrameSequence {
   std::vector<Position> x_t0_, x_t1_;
 };
 
-/// ".ply": in lower case.
+/// The extension in lower case, such as ".ply".
 std::string extension_of(const std::filesystem::path& path);
 
 enum class MeshFormat { ply, obj };
 
-/// By the extension, in any case. Throws InputError for all but .ply and .obj, with conversion_advice().
+/// The format, by the extension in upper or lower case. Throws InputError with conversion_advice() for all extensions
+/// except .ply and .obj.
 MeshFormat mesh_format(const std::filesystem::path& path);
 
-/// How to make frames of a file by its extension (.npz .npy .abc .usd .stl .vtk .vtu .gz .glb .fbx and others), one
-/// line; "" for extensions that are not known.
+/// How to convert a file to frames, by its extension (.npz .npy .abc .usd .stl .vtk .vtu .gz .glb .fbx and others); one
+/// line, or "" for an unknown extension.
 std::string conversion_advice(const std::filesystem::path& path);
 
 }  // namespace noli
