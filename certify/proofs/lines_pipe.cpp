@@ -88,13 +88,13 @@ bool LinesPipe::is_stopped() const {
   return stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_);
 }
 
-/// Whether somebody has waited too long for the checker to read. Before anybody waits it may not have been started.
+/// Whether drained() has waited too long for the checker to read. Before that the checker may not have been started.
 bool LinesPipe::waited_too_long() const {
   const std::lock_guard lock(mutex_);
   return awaited_since_ && std::chrono::steady_clock::now() >= *awaited_since_ + time_to_open;
 }
 
-/// Waits for the checker to open its end; until then ours cannot be opened.
+/// Waits for the checker to open its end; our end cannot be opened before.
 std::optional<int> LinesPipe::open() const {
   while (!given_up() && !waited_too_long()) {
     const int end = ::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
@@ -104,7 +104,7 @@ std::optional<int> LinesPipe::open() const {
   return std::nullopt;
 }
 
-/// False when nobody reads it any more.
+/// False if there is no reader any more.
 bool LinesPipe::write(int end, std::string_view bytes) const {
   while (!bytes.empty()) {
     const ssize_t written = ::write(end, bytes.data(), bytes.size());

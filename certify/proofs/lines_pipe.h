@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A trajectory.blocks that is never a file: the world lines of a run that is reproduced, on their way to a checker.
+// A trajectory.blocks that is never a file: it streams the world lines of a reproduced run to a checker.
 //
-// What is written is kept in memory until the checker has read it, and drained() bounds that: whoever calls it before
-// each window has one of them in memory.
+// Bytes stay in memory until the checker has read them. Call drained() before each window to keep only one window in
+// memory.
 #pragma once
 
 #include <chrono>
@@ -24,22 +24,22 @@ namespace noli {
 
 class LinesPipe {
  public:
-  /// A named pipe in a folder of its own, which vanishes with this. Gives up at the deadline, or when the user asks to
-  /// stop. Throws std::system_error.
+  /// Creates a named pipe in a folder of its own, which the destructor removes. Gives up at the deadline, or when the
+  /// user asks to stop. Throws std::system_error.
   explicit LinesPipe(std::optional<std::chrono::steady_clock::time_point> deadline);
   ~LinesPipe();
   LinesPipe(const LinesPipe&) = delete;
   LinesPipe& operator=(const LinesPipe&) = delete;
 
-  /// What the checker opens.
+  /// The file that the checker opens.
   const std::filesystem::path& path() const { return path_; }
-  /// For a RunWriter, which this has to outlive.
+  /// For a RunWriter, which this must outlive.
   std::unique_ptr<Sink> sink();
 
   /// Waits until the checker has read all that was written. Throws std::runtime_error when it does not open the pipe
-  /// within a minute; returns at once when it has ended, which its proof then tells.
+  /// within a minute. Returns at once if the checker has ended; writing the proof then reports that.
   void drained();
-  /// The same, and the checker is at its end.
+  /// The same, then ends the stream.
   void close();
 
  private:
@@ -58,11 +58,11 @@ class LinesPipe {
   std::filesystem::path path_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::string> waiting_;  ///< the first is on its way until it is gone
+  std::deque<std::string> waiting_;  ///< the first one is being written
   bool closing_ = false, abandoned_ = false;
   bool over_ = false;                                                   ///< nothing is written any more
-  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< by drained()
-  bool unopened_ = false;                                               ///< because nobody has opened it
+  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< since when drained() waits
+  bool unopened_ = false;                                               ///< the checker never opened the pipe
   std::thread thread_;
 };
 
