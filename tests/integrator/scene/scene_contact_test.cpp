@@ -290,8 +290,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"layers": {"thickness_exponent": 0}})",
             "/layers/thickness_exponent: expected a number greater than 0, found 0"},
         Bad{R"({"layers": {"thickness_exponent": 2, "stiffness_exponent": 2.75, "step_exponent": 3}})",
-            "/layers/stiffness_exponent: expected at least 3, twice the thickness_exponent less 1, found 2.75: the "
-            "layers' energies, stiffness * thickness^2, have a finite sum, so that a great speed gets through"},
+            "/layers/stiffness_exponent: expected at least 3, 2 * thickness_exponent - 1, found 2.75: the layers' "
+            "energies, stiffness * thickness^2, have a finite sum, so a fast impact gets through"},
         Bad{R"({"layers": {"thickness_exponent": 1.5}})",
             "/layers/step_exponent: expected more than 1.5, the thickness_exponent, found 1.5: deep layers could be "
             "passed between two of their kicks"},
@@ -361,7 +361,7 @@ TEST(SceneContact, ADefaultStiffnessThatCannotBeUsedSaysWhereItIsFrom) {
         << said;
     EXPECT_NE(
         said.find("no stiffness is given, and its default, 3.33333e+124 [N/m], is the greatest mass of a vertex, "
-                  "3.33333 kg, over the square of the time, 1e-62 s, in which 1e+60 m/s pass a thickness of 0.01 m"),
+                  "3.33333 kg, over the square of the time, 1e-62 s, to cross a thickness of 0.01 m at 1e+60 m/s"),
         std::string::npos)
         << said;
   }

@@ -113,11 +113,11 @@ INSTANTIATE_TEST_SUITE_P(
             "/bodies/0/material/mass_per_vertex: expected a number greater than 0 [kg], found -1"},
         Bad{"/window", "0", "/window: expected a number greater than 0 [s], found 0"},
         Bad{"/window", "1e-300",
-            "/window: expected more than 8.881784197001252e-16 [s], a part of the duration that can be counted, found "
-            "1e-300"},
+            "/window: expected more than 8.881784197001252e-16 [s], 2^-50 of the duration, found 1e-300: shorter times "
+            "cannot be counted"},
         Bad{"/bodies/0/steps", "{\"bend\": 1e-20}",
-            "/bodies/0/steps/bend: expected more than 8.881784197001252e-16 [s], a part of the duration that can be "
-            "counted, found 1e-20"},
+            "/bodies/0/steps/bend: expected more than 8.881784197001252e-16 [s], 2^-50 of the duration, found 1e-20: "
+            "shorter times cannot be counted"},
         Bad{"/duration", "-1", "/duration: expected a number greater than 0 [s], found -1"},
         Bad{"/dimension", "4", "/dimension: expected 2 or 3, found 4"},
         Bad{"/record", "\"none\"", "/record: expected \"full\" or \"frames\", found \"none\""},

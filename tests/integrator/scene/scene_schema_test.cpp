@@ -50,7 +50,8 @@ TEST(ParseJson, ErrorsNameLineAndColumn) {
 }
 
 TEST(ParseJson, FieldsOccurOnce) {
-  EXPECT_EQ(parse_error(R"({"a": [{"b": 1}, {"b": 1, "c": 2, "b": 3}]})"), "t.json: /a/1/b: this field is there twice");
+  EXPECT_EQ(parse_error(R"({"a": [{"b": 1}, {"b": 1, "c": 2, "b": 3}]})"),
+            "t.json: /a/1/b: expected this field once, found it twice");
   EXPECT_EQ(parse_error(R"({"a": {"b": 1}, "c": {"b": 1}})"), "");
 }
 
