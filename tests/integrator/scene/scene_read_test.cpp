@@ -57,7 +57,7 @@ TEST(ReadScene, DefaultVectorsOfThePlaneHaveTwoNumbers) {
 }
 
 struct Bad {
-  const char* pointer;  ///< where the scene is changed; "-..." to remove instead
+  const char* pointer;  ///< where the scene is changed; "-..." to remove the field
   const char* value;
   const char* message;
 };
@@ -250,7 +250,7 @@ TEST(ShortForm, ItsValuesAreCheckedToo) {
   EXPECT_EQ(problem_of(scene, Form::brief), "s.json: /short: expected an object, found 5");
 }
 
-/// Calls visit(pointer, value) for all values that are no object, and for numbers and strings in arrays.
+/// Calls visit(pointer, value) for all values that are neither objects nor arrays.
 void visit_leaves(const Json& value, const Json::json_pointer& at,
                   const std::function<void(const Json::json_pointer&, const Json&)>& visit) {
   if (value.is_object()) {
@@ -262,7 +262,7 @@ void visit_leaves(const Json& value, const Json::json_pointer& at,
   }
 }
 
-/// Another value that a scene may have in the same place.
+/// A different valid value for the same field.
 Json other(const Json& value) {
   static const std::map<std::string, std::string> twins = {
       {"frames", "full"}, {"own", "grouped"}, {"parallel", "alternating"}, {"stretch", "bend"},
@@ -310,7 +310,7 @@ TEST(ReadScene, EveryFieldCounts) {
   }
 }
 
-/// The known fields, as "grid.cells": the definition and the field; and those of a document that the schema has.
+/// Collects fields as "grid.cells" (definition and field): all fields of the schema, and those used in a document.
 class Fields {
  public:
   void all(const Json& schema, const std::string& name) {

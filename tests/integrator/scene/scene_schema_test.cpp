@@ -21,7 +21,7 @@ std::string parse_error(std::string_view text) {
   return "";
 }
 
-/// What is wrong with a document, "" for nothing.
+/// The error in a document; "" if there is none.
 std::string problem(const char* schema, const char* document) {
   try {
     validate(Json::parse(schema), Json::parse(document), "d");
@@ -187,11 +187,11 @@ TEST(Schema, TheShippedOneKeepsToTheSubset) {
   const Json shipped = Json::parse(scene_schema_text());
   std::size_t objects = 0;
   visit_schemas(shipped, [&](const Json& schema) {
-    Json alone = schema;  // its parts are visited by themselves
+    Json alone = schema;  // its parts are visited separately
     for (const char* part : {"properties", "$defs", "items", "oneOf", "$ref", "required"}) alone.erase(part);
     try {
       validate(alone, "no schema says this", "d");
-    } catch (const InputError&) {  // of course
+    } catch (const InputError&) {  // expected
     }
     if (schema.contains("properties")) {
       ++objects;
