@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates as cells: no two features are nearer than their next layer, and who has to be asked when is decided
-// vertex by vertex.
+// Certifies that no two features are nearer than their next layer, by regions of space-time that each vertex promises
+// not to leave.
 //
 // Notation (design, "Certificates"; slabs: Harmon et al. 2009, section 5)
 //   eta(l)      thickness of layer l of a pair; L: the number of layers that are active for it
 //   certificate   of a pair: it is farther apart than eta(L + 1). Layers beyond L then give no impulse
-//   slice       a stretch of time for which the broad phase is done at once
-//   tube        a vertex's plan for the slice. Pairs that a direction keeps eta(1) apart for the whole slice, the
-//               tubes' radii included, are settled: they are not even remembered
-//   near pair   one that is not; it has a slab of thickness eta(L + 1), whose two sides are walls of its vertices
-//   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared with the
-//               guard alone, which takes a few operations; the walls are looked at when the guard is used up
-//   look        a vertex is looked at whenever its velocity changes, and at least every look_step(i) if that is finite.
-//               It must hold its guard until the next look, or until the event that is due for it. Otherwise an event
-//               is due where it will leave the guard; or if it is near the border, it is planned anew, and if its
-//               walls are too near for that, an event is due when the new guard ends
-//   repair      a wall that is used up: a new slab for the pair where it is now; or if it has no room, the next layer
+//   slice       a time interval that the broad phase covers in one pass
+//   tube        a vertex's plan for the slice. A pair is settled, and not stored, if some direction keeps it eta(1)
+//               apart for the whole slice, the tubes' radii included
+//   near pair   a pair that is not settled; it has a slab of thickness eta(L + 1), whose two sides are walls of its
+//               vertices
+//   guard       a vertex's plan inside its tube and inside all its walls. A change of velocity is compared only with
+//               the guard, which takes a few operations; the walls are checked when the guard is used up
+//   look        a check of a vertex, whenever its velocity changes and at least every look_step(i) if that is finite.
+//               The vertex must stay in its guard until the next look, or until the event that is due for it. If it
+//               does not, an event is queued for when it will leave the guard. If it is near the border, it gets a new
+//               guard; if its walls are too near for that, an event is queued for the end of the new guard
+//   repair      replaces a wall that is used up by a new slab at the pair's current position, or by the next layer if
+//               there is no room
 //
-// Activating a layer early does nothing to the motion, since its impulses are zero; so everything here may err to that
+// Activating a layer early does not change the motion, since its impulses are zero. So everything here may err on that
 // side, and does: thresholds for activation lie a quarter of a layer's width outside. Times are chosen in double;
 // whether a guard or a wall holds until then is decided exactly (certificates/decisions.h).
 //
 // Host, the dynamics:
 //   Line<Dim> line(v)                 how a vertex moves now
-//   bool immovable(v)                 pinned or scripted: two such features are no pair
+//   bool immovable(v)                 pinned or scripted: two features with only such vertices are not a pair
 //   std::uint16_t material(stencil)   of contact of this pair, or no_material
 //   double thickness(material, l)     eta(l), decreasing to 0
 //   double look_step(v)
-//   std::uint32_t least_layers()      so many are always active for a pair that is near
-//   std::size_t many_walls()          so many make a pen worth its while
+//   std::uint32_t least_layers()      the number of layers that are always active for a near pair
+//   std::size_t many_walls()          the number of walls from which a pen is worth the effort
 //   double greatest_thickness(v)      the largest eta(1) of any pair of a feature that v is part of
-//   in_broad_phase()                  something that is kept while this looks for who is near whom
+//   in_broad_phase()                  returns an object that is kept while near pairs are searched for
 //   void activate(stencil, material, l, t), deactivate(stencil, material, l)
 //
-// What this does not do: it moves nothing, and it proves nothing: what is recorded is verified exactly elsewhere.
+// Nothing here proves the motion: recorded windows are verified exactly elsewhere.
 #pragma once
 
 #include <algorithm>
@@ -82,18 +84,18 @@ class Cells {
     measure(x);
   }
 
-  /// Certifies the present state, whatever layers that takes.
+  /// Certifies the present state, activating as many layers as needed.
   void start(double t) { begin_slice(t); }
 
-  /// To be called of a vertex at time t after its velocity may have changed, and as often as look_step says.
+  /// Call this for a vertex at time t after its velocity may have changed, and as often as look_step says.
   void look(VertexId i, double t) {
     const double ahead = std::min({t + host_.look_step(i), slice_end_, due_[i]});
-    // When the next slice begins at once, all is looked at then.
+    // If the next slice begins at once, it checks everything.
     if (slice_due_ <= t || decisions_.holds(guards_[i], host_.line(i), ahead)) return;
     if (!keep_guard(i, t)) plan_at_once(i, t);
   }
 
-  /// Of the next event of a certificate.
+  /// The time of the next event of a certificate.
   double next_time() {
     while (!events_.empty() && due_[events_.top().second] != events_.top().first) events_.pop();
     return events_.empty() ? slice_due_ : std::min(slice_due_, events_.top().first);
@@ -112,7 +114,7 @@ class Cells {
 
   const CertificateCounts& counts() const { return counts_; }
 
-  /// Layer l of this pair gives no impulse at this distance: if it is the deepest and not needed soon, it goes.
+  /// Drops layer l of this pair, which gives no impulse at this distance, if it is the deepest and not needed soon.
   /// Precondition: the pair has it.
   void drop_if_clear(const Stencil& s, std::uint16_t material, std::uint32_t l, double distance, double t) {
     if (!is_clear(host_, material, l, distance, decisions_.recording())) return;
@@ -126,18 +128,18 @@ class Cells {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  /// Of a slab's slack: below it, the slab is put up anew.
+  /// The share of a slab's slack below which the slab is replaced.
   static constexpr double worn = 0.3;
-  /// Of the time to a wall: a plan ends there.
+  /// The share of the time to a wall at which a plan ends.
   static constexpr double reach = 0.9;
-  /// Of a guard's radius, squared: farther out, a vertex is planned anew.
+  /// The share of a guard's squared radius beyond which a vertex gets a new guard.
   static constexpr double well_inside = 0.5;
-  /// Of the time in which a vertex leaves its guard: then it is looked at, and with this much it is not well inside.
+  /// The share of the time until a vertex leaves its guard after which it is checked; it is then no longer well inside.
   static constexpr double way_out = 0.9;
 
   using Event = std::pair<double, VertexId>;
 
-  /// Where a vertex was when the slice began, and how it moved on average in the slice before.
+  /// A vertex's position when the slice began, and its mean velocity in the slice before.
   struct Course {
     Vector<Dim> x = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
   };
@@ -149,8 +151,8 @@ class Cells {
 
   // --- Slices --------------------------------------------------------------------------------------------------------
 
-  /// Radii of tubes: a part of the shortest edge at a vertex. And what cells have to keep clear around them: of a pair
-  /// of features each cell has at least half of the thickness.
+  /// Sets the radii of tubes, a share of the shortest edge at a vertex; and the distance that each cell keeps clear
+  /// around it: in a pair of features, each cell has at least half of the thickness.
   void measure(std::span<const Vector<Dim>> x) {
     constexpr double part = 0.12;
     sizes_.assign(x.size(), never);
@@ -162,7 +164,7 @@ class Cells {
     double widest_of_all = 0;
     for (VertexId i = 0; i < x.size(); ++i) widest_of_all = std::max(widest_of_all, host_.greatest_thickness(i));
     for (VertexId i = 0; i < x.size(); ++i) {
-      const double own = host_.greatest_thickness(i);  // none, if it may go through everything
+      const double own = host_.greatest_thickness(i);  // 0 if it may pass through everything
       if (sizes_[i] == never) sizes_[i] = 2 * (own > 0 ? own : widest_of_all);
     }
     for (const auto& cell : features_.cells()) {
@@ -196,8 +198,8 @@ class Cells {
     settle(t);
   }
 
-  /// Longer while nobody leaves his tube, shorter when many do, or when many pairs are near only because of how far
-  /// things go in a slice.
+  /// Makes slices longer while no vertex leaves its tube, and shorter when many do, or when many pairs are near only
+  /// because of the distance that vertices move in a slice.
   void adapt_length() {
     const std::size_t n = tubes_.size();
     if (is_swept()) {
@@ -208,13 +210,14 @@ class Cells {
       length_ = std::min(length_ * 2, longest_);
     }
   }
-  /// Where things are that fast in the shortest slices too, shorter ones would cost more than they save.
+  /// Whether many pairs are near only because of fast motion. Not in very short slices: shorter ones would cost more
+  /// than they save.
   bool is_swept() const {
     return length_ > longest_ * 0x1p-8 && swept_ > tubes_.size() && 2 * swept_ > nears_at_begin_;
   }
 
-  /// Goes on as the vertex went on average since the last slice began, and with the change of that: what shakes, stays
-  /// in the middle; what falls, falls on.
+  /// The tube continues the vertex's mean velocity since the last slice began, and its change. So a vibrating vertex
+  /// stays in the middle, and a falling one falls on.
   void begin_tube(VertexId i, double before, double t) {
     const Line<Dim> now = line_at(i, t);
     Line<Dim> line = now;
@@ -230,7 +233,7 @@ class Cells {
     set_tube(i, now, line);
   }
 
-  /// Unless that would lead out of the tube before anyone looks.
+  /// Sets a tube along `line`, or along the current motion if the vertex would leave that tube before the next look.
   void set_tube(VertexId i, const Line<Dim>& now, Line<Dim> line) {
     const double look = std::min(host_.look_step(i), slice_end_ - now.t);
     if (!((line.v - now.v).squaredNorm() * look * look <= 0.25 * sizes_[i] * sizes_[i])) line.v = now.v;
@@ -239,7 +242,7 @@ class Cells {
     decisions_.reach_out(now, slice_end_);
   }
 
-  /// What directions and boxes that settle pairs keep clear on each side.
+  /// The distance that directions and boxes keep clear on each side when they settle pairs.
   double margin() const { return decisions_.recording() + decisions_.rounding(); }
 
   MovingBox<Dim> box_of(std::uint32_t cell) const {
@@ -254,7 +257,7 @@ class Cells {
     return box;
   }
 
-  /// All near pairs anew; of those that were near before, layers stay.
+  /// Finds all near pairs anew; pairs that were near before keep their layers.
   void find_near(double t) {
     for (Pen<Dim>& pen : pens_) pen.take_down();
     nears_.begin_slice();
@@ -283,8 +286,7 @@ class Cells {
 
   // --- Pairs ---------------------------------------------------------------------------------------------------------
 
-  /// Remembers a pair that the tubes do not settle. Its slab is still to be put up. Precondition: it is not remembered
-  /// yet.
+  /// Stores a pair that the tubes do not settle. The caller must put up its slab. Precondition: it is not stored yet.
   void consider(const Stencil& s, double t) {
     const std::uint16_t material = material_of(host_, s);
     if (material == no_material || settled(s, material, t)) return;
@@ -308,8 +310,7 @@ class Cells {
     return false;
   }
 
-  /// The same for all pairs of two cells that have no vertex in common, by the direction between their centres.
-  /// Silent otherwise.
+  /// The same for all pairs of two cells, by the direction between their centres. False if the cells share a vertex.
   bool cells_settled(std::uint32_t a, std::uint32_t b, double t) const {
     const auto p = features_.cells()[a].all(), q = features_.cells()[b].all();
     if (std::ranges::find_first_of(p, q) != p.end()) return false;
@@ -336,7 +337,7 @@ class Cells {
     return low - high;
   }
 
-  /// A slab where the pair is now. Plans that do not respect it are to be made anew. Returns the pair's distance.
+  /// Puts up a slab at the pair's current position. Plans that cross it must be made anew. Returns the pair's distance.
   double put_up_slab(std::uint32_t near, double t, bool thinner = false) {
     NearPair<Dim>& pair = nears_[near];
     const bool had_layers = pair.layers > 0;
@@ -362,8 +363,8 @@ class Cells {
 
   // --- Vertices ------------------------------------------------------------------------------------------------------
 
-  /// If a vertex is still well inside its guard, queues an event for when it will leave it, and returns true. What
-  /// shakes changes its velocity again and again but hardly moves.
+  /// If a vertex is still well inside its guard, queues an event for when it will leave it, and returns true. This
+  /// helps vibrating vertices, whose velocity changes again and again but which hardly move.
   bool keep_guard(VertexId i, double t) {
     const Plan<Dim>& guard = guards_[i];
     const Line<Dim> line = host_.line(i);
@@ -398,7 +399,7 @@ class Cells {
     work_.clear();
   }
 
-  /// A guard from now on.
+  /// Gives a vertex a new guard.
   void plan(VertexId i, double t) {
     ++counts_.plans;
     const Line<Dim> now = line_at(i, t);
@@ -411,7 +412,7 @@ class Cells {
     if (due_[i] != never) events_.push({due_[i], i});
   }
 
-  /// Free ones follow their tube until they are looked at; those with walls want some room in it.
+  /// A vertex without walls must stay in its tube until the next look; one with walls needs some room in it.
   bool must_leave_tube(VertexId i, const Line<Dim>& now, double ahead) const {
     const Plan<Dim>& tube = tubes_[i];
     if (nears_.of(i).empty()) return !decisions_.holds(tube, now, ahead);
@@ -433,7 +434,7 @@ class Cells {
     if (retubed_ * 8 > tubes_.size() + 64 || crowded) slice_due_ = now.t;
   }
 
-  /// Pairs that the vertex is part of, its tube being new.
+  /// Finds pairs that the vertex is part of, after its tube has changed.
   void find_near_cells(VertexId i, double t) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     known_.clear();
@@ -443,8 +444,8 @@ class Cells {
     for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, t);
   }
 
-  /// Pairs of this cell that the vertex is part of and that are not known; those with a later cell of the vertex only,
-  /// so that none is found twice.
+  /// Finds unknown pairs of this cell that the vertex is part of. Of pairs with another cell of the vertex, takes only
+  /// those with a later cell, so that none is found twice.
   void find_near_cell(VertexId i, std::uint32_t cell, double t) {
     const auto of_i = features_.cells_of(i);
     hierarchy_.for_each_near(box_of(cell), [&](std::uint32_t other) {
@@ -457,7 +458,7 @@ class Cells {
     });
   }
 
-  /// Inside its pen, if it has one; else, if it has many walls, it gets one for next time.
+  /// Plans inside the vertex's pen if it has one. Otherwise, a vertex with many walls gets a pen for next time.
   Plan<Dim> plan_within(VertexId i, const Line<Dim>& now) {
     Pen<Dim>& pen = pens_[i];
     if (pen.holds(now)) {
@@ -487,7 +488,7 @@ class Cells {
                     rounding + decisions_.recording());
   }
 
-  /// Along the vertex's own motion inside `outer`, until it has used up part of the way to one of these walls.
+  /// A plan along the vertex's own motion, inside `outer`, until it has covered part of the way to one of these walls.
   Plan<Dim> plan_between(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now) {
     const Vector<Dim> e = now.x - outer.line.at(now.t), w = now.v - outer.line.v;
     const double edge = 0.5 * (outer.radius + std::sqrt(e.squaredNorm()));
@@ -505,10 +506,10 @@ class Cells {
     }
     const double radius = room - 2 * decisions_.rounding();
     if (!(radius > 0 && until > now.t)) return without_room(outer, walls, now, until);
-    return {now, radius, until};  // beyond all walls by more than rounding: nothing is left to be decided
+    return {now, radius, until};  // beyond all walls by more than rounding, so no decision is needed
   }
 
-  /// A plan for what is so near to a wall that doubles do not tell whether it stays beyond it: no wider than its line.
+  /// A plan of radius 0 for a vertex so near a wall that doubles cannot tell whether it stays beyond it.
   Plan<Dim> without_room(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now,
                          double until) const {
     for (;; until = now.t + 0.5 * (until - now.t)) {
@@ -525,7 +526,7 @@ class Cells {
     double clearance, closing;
   };
 
-  /// Put up anew if it is worn.
+  /// A wall; its slab is replaced if it is worn.
   Wall wall(Side side, const Line<Dim>& now) {
     const std::uint32_t near = side.near();
     const bool of_a = side.of_a();
@@ -533,7 +534,7 @@ class Cells {
       const Slab<Dim>& slab = nears_[near].slab;
       const double clearance = slab.clearance(of_a, now.x, now.t);
       if (clearance > worn * slab.slack) return {clearance, slab.closing(of_a, now.v)};
-      put_up_slab(near, now.t, slab.since == now.t);  // just put up and worn already: only a thinner one can help
+      put_up_slab(near, now.t, slab.since == now.t);  // if a new one is already worn, only a thinner one can help
     }
   }
 
@@ -543,15 +544,15 @@ class Cells {
   Hierarchy<Dim> hierarchy_;
   double longest_, length_;
   double slice_begin_ = 0, slice_end_ = 0, length_before_ = 0;
-  double slice_due_ = 0;  ///< when the next one begins: earlier than the end if too many have left their tubes
+  double slice_due_ = 0;  ///< when the next slice begins: before the end if too many vertices have left their tubes
   std::size_t retubed_ = 0;
   std::size_t nears_at_begin_ = 0;  ///< near pairs when the slice began
-  std::size_t swept_ = 0;           ///< of them, those that were far apart then
+  std::size_t swept_ = 0;           ///< those of them that were far apart then
   std::vector<double> sizes_;       ///< radii of tubes
-  std::vector<double> halves_;      ///< of a cell: half of the largest eta(1) of its features
+  std::vector<double> halves_;      ///< by cell: half of the largest eta(1) of its features
   std::vector<Course> courses_;
   std::vector<Plan<Dim>> tubes_, guards_;
-  std::vector<double> due_;  ///< of a vertex: time of its event, or never
+  std::vector<double> due_;  ///< by vertex: the time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   NearPairs<Dim> nears_;
   std::vector<Pen<Dim>> pens_;

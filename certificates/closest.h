@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The closest points of two features, and how they slide along each other.
+// Computes the closest points of two features, and how they slide along each other.
 //
 // Notation
 //   x_i   vertices of the pair, those of A first
 //   w_i   weights with sum w_i x_i = r, positive on A, negative on B, each feature's adding up to 1 or -1
 //   r     from the closest point of B to that of A; d = |r| is the distance and w_i r / d its gradient by x_i
-//   b_k   directions x_p - x_q in which the closest points can slide; none where corners hold them. With c_k = b_k . u
-//         + (db_k/dt) . r, where u = sum w_i v_i, the rates of the closest points' parameters solve (b_j . b_k) rate =
-//         c (differentiate b_k . r = 0). They are the same in every moving frame
+//   b_k   directions x_p - x_q in which the closest points can slide; none if they are at corners. With c_k = b_k . u +
+//         (db_k/dt) . r, where u = sum w_i v_i, the rates of the closest points' parameters solve (b_j . b_k) rate = c
+//         (differentiate b_k . r = 0). They are the same in every moving frame
 //
-// Any weights give a point of each feature, so |r| as computed is never less than the distance but for the rounding of
-// one short sum: what trusts it errs on the side of "farther" by a few units in the last place of the coordinates.
+// Any weights give a point of each feature, so the computed |r| is never less than the distance, except for the
+// rounding of one short sum. It errs on the side of "farther", by a few units in the last place of the coordinates.
 //
 // Regions of a triangle: Ericson, "Real-Time Collision Detection" (2005), 5.1.5; segments: 5.1.9. Parallel segments use
-// the middle of their overlap; so do those whose angle is below 1e-6, which makes r longer by at most half of a
+// the middle of their overlap. So do segments whose angle is below 1e-6, which makes r longer by at most half of a
 // millionth of the edge.
 //
-// Where one segment turns through parallel in a plane with the other, the closest points jump from end to end. The
-// distance is as it was, its gradient is not, so a kick comes from another end, no larger than ever, and the energy of
-// an impact is off by first order in the step of contact. For a bar that lands flat on another one: sd 0.2 c, that is
-// 0.4 %, 1.0 %, 2.1 % at c = 0.02, 0.05, 0.1 (c as in docs/contact.md, 1), mean 0 within its error over 1,000 impacts;
-// crossing at 0.01 rad 0.02 %, 0.4 %, 1.2 %; at 0.1 rad and more 0.03 % at c = 0.1, which is that of any impact
-// (tests/integrator/contact_physics_parallel_test.cpp).
+// When one segment turns through parallel in a plane with the other, the closest points jump from end to end. The
+// distance is continuous but its gradient is not. So a kick comes from another end (no larger than others), and the
+// energy of an impact is off by first order in the step of contact. For a bar that lands flat on another one: sd 0.2 c,
+// that is 0.4 %, 1.0 %, 2.1 % at c = 0.02, 0.05, 0.1 (c as in docs/contact.md, 1), mean 0 within its error over 1,000
+// impacts; crossing at 0.01 rad 0.02 %, 0.4 %, 1.2 %; at 0.1 rad and more 0.03 % at c = 0.1, which is that of any
+// impact (tests/integrator/contact_physics_parallel_test.cpp).
 //
 // S, the type of numbers, is double; in audits also multiprecision numbers, for which the formulas are the same.
 //
-// What this does not do: it decides nothing. Whether things meet is for the kernel.
+// These are rounded numbers for the dynamics; the kernel decides whether features meet.
 #pragma once
 
 #include <algorithm>
@@ -69,7 +69,7 @@ class ClosestFinder {
  public:
   ClosestFinder(std::span<const Vector<Dim, S>> x, Closest<Dim, S>& result) : x_(x), result_(result) {}
 
-  /// A corner and a segment; sign: 1 if the corner is of A, else -1. Indices into the stencil.
+  /// A corner and a segment; sign: 1 if the corner belongs to A, otherwise -1. Indices into the stencil.
   void corner_segment(std::uint8_t p, std::uint8_t q0, std::uint8_t q1, const S& sign) {
     const Vector<Dim, S> e = x_[q1] - x_[q0];
     const S length = e.squaredNorm();
@@ -124,7 +124,7 @@ class ClosestFinder {
     weigh(3, -t);
     if (s > S(0) && s < S(1)) slide(0, 1);
     if (t > S(0) && t < S(1)) slide(3, 2);
-    // Along parallel edges both parameters are one.
+    // Parallel edges leave only one independent parameter.
     if (result_.slide_count == 2 && !(det > S(1e-12) * a * e)) result_.slide_count = 1;
   }
 
@@ -143,7 +143,7 @@ class ClosestFinder {
     return S(0.5) * (s0 + s1);
   }
 
-  /// Of a triangle without area.
+  /// The nearest point of a triangle without area.
   void nearest_border() {
     S least(-1);
     Closest<Dim, S> best;

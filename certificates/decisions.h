@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Does a certificate hold until a time? Decided for the motion as it is extrapolated, over the reals: by a static bound
-// for the rounding of doubles, and where that does not tell, by kernel/failure_time. Who schedules may choose any time
-// he likes, however he computes it; what is decided here is never true of one that is too late.
+// Decides whether a certificate holds until a time, for the extrapolated motion over the reals: by a static bound for
+// the rounding of doubles, and if that is not enough, by kernel/failure_time. Schedulers may choose and compute times
+// in any way; the answer here is never true for a time that is too late.
 //
 // Notation: that of certificates/cells.h and of kernel/failure_time.h, and
-//   reach       no coordinate of a vertex is larger in this slice, nor is one of a plan that it has
-//   rounding    2^-44 reach: more than what rounding does to a clearance, a deviation or a gap computed in double
-//   recording   2^-47 reach: by how much what is recorded and what a layer computes may differ from what is
-//               extrapolated, for each side of a pair (proofs/theory.md, C1). Walls keep it clear; it is part of what
-//               is certified
+//   reach       a bound of all coordinates of vertices and their plans in this slice
+//   rounding    2^-44 reach: a bound of the rounding in a clearance, a deviation or a gap computed in double
+//   recording   2^-47 reach: how far recorded positions, and those that a layer computes, may differ from extrapolated
+//               ones, for each side of a pair (proofs/theory.md, C1). Walls keep it clear; certificates include it
 //
-// The static bound only says yes. Of a ball: a vertex that was within it at its last breakpoint, and whose deviation
-// comes out less than the radius, has gone no farther than twice the reach, whatever its velocity; so its deviation is
-// known to some 20 units of 2^-53 of the reach.
-//
-// What this does not do: it chooses no time.
+// The static bound can only confirm. For a ball: let a vertex be within it at its last breakpoint, and let its computed
+// deviation be less than the radius. Then it has moved no farther than twice the reach at any velocity, so its
+// deviation is known to some 20 units of 2^-53 of the reach.
 #pragma once
 
 #include <algorithm>
@@ -41,22 +38,22 @@ Ray<Dim> ray_of(const Line<Dim>& line) {
   return {line.t, point_of<Dim>(line.x), point_of<Dim>(line.v)};
 }
 
-/// What vertices of A, or of B, promise of a slab; and that they stay this far from it.
+/// The wall that vertices of A, or of B, must stay beyond, at least `clear` away from the slab.
 template <int Dim>
 MovingWall<Dim> wall_of(const Slab<Dim>& slab, bool of_a, double clear) {
   constexpr double up = 1 + 0x1p-50;  // more than two roundings
   return {point_of<Dim>(slab.normal), slab.offset, slab.rate, slab.since, (slab.half + clear) * up, of_a};
 }
 
-/// `Host`: it may have decided(ray, certificate, from, until, holds), which is then told of each decision.
+/// `Host` may have decided(ray, certificate, from, until, holds), which is then called for each decision.
 template <int Dim, class Host>
 class Decisions {
  public:
   explicit Decisions(Host& host) : host_(host) {}
 
-  /// For the slice that begins.
+  /// Call this when a slice begins.
   void forget_reach() { reach_ = 0; }
-  /// Before anything is decided of a line until `end`.
+  /// Call this before any decision about a line until `end`.
   void reach_out(const Line<Dim>& line, double end) {
     const double way = line.v.cwiseAbs().maxCoeff() * (end - line.t);
     reach_ = std::max(reach_, line.x.cwiseAbs().maxCoeff() + way);
@@ -94,8 +91,7 @@ class Decisions {
     return tell(ray, wall, t, plan.until, far || holds_until(ray, wall, t, plan.until));
   }
 
-  /// When a vertex comes to its wall, rounded down, if that is before `latest`, or else `latest`; not before t.
-  /// Precondition: t <= latest.
+  /// When a vertex reaches its wall, rounded down, but not before t and not after `latest`. Precondition: t <= latest.
   double time_of_failure(const Line<Dim>& motion, const Slab<Dim>& slab, bool of_a, double t, double latest) const {
     const Ray<Dim> ray = ray_of<Dim>(motion);
     const MovingWall<Dim> wall = wall_of<Dim>(slab, of_a, recording());

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The features of a mesh as contact sees them: who can meet whom, each pair from exactly one pair of cells.
+// The features of a mesh for contact: which pairs can meet, each found from exactly one pair of cells.
 //
 // Notation
 //   cell    a face, loose edge or loose point, as in include/noli/mesh.h
-//   owner   of a vertex or edge: the first cell that has it. A pair of features belongs to the pair of their owners, a
-//           face being its own
+//   owner   of a vertex or edge: the first cell that has it; of a face: itself. A pair of features belongs to the pair
+//           of their owners
 //
-// Pairs, in space: vertex and face, edge and edge, loose point and loose edge, two loose points, and the end of a loose
-// edge against a loose edge that the other end is on (any other vertex of an edge against an edge is part of edge and
-// edge, or of vertex and face). In the plane: vertex and edge, two loose points. Features with a common vertex are no
-// pair.
-//
-// What this does not do: it knows no positions.
+// Pairs in space: vertex and face, edge and edge, loose point and loose edge, two loose points; and for two loose edges
+// with a common vertex, the other end of one against the other edge (any other vertex of an edge against an edge is
+// part of edge and edge, or of vertex and face). In the plane: vertex and edge, two loose points. Features with a
+// common vertex are not a pair.
 #pragma once
 
 #include <array>
@@ -59,8 +57,8 @@ class Features {
   }
 
  private:
-  /// Owned vertices of one cell against another cell, if that is a face (an edge in the plane), or against a loose edge
-  /// if the vertex is a loose point.
+  /// Owned vertices of one cell against another cell, if that is a face (an edge in the plane); or against a loose
+  /// edge, if the vertex is a loose point.
   template <class Each>
   void vertices_and_whole(const Cell& a, std::uint32_t b, Each&& each) const {
     const Cell& whole = cells_[b];
@@ -76,7 +74,7 @@ class Features {
     for_each_owned(a, [&](VertexId v) { vertex_and_edges(v, whole, each); });
   }
 
-  /// Of two loose edges with one vertex in common, the other ends.
+  /// The pairs of two loose edges with one vertex in common: the other end of each against the other edge.
   template <class Each>
   void loose_neighbours(const Cell& a, const Cell& b, Each&& each) const {
     for (std::size_t k = 0; k < 2; ++k) {

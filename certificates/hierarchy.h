@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A kinetic hierarchy: boxes that move linearly over a stretch of time, in a binary tree over the cells.
+// A kinetic hierarchy: boxes that move linearly over a time interval, in a binary tree over the cells.
 //
 // Notation
-//   stretch   [begin, end] of time
-//   box       low(t), high(t), linear in between what they are at begin and end; holds what is in it at every t
-//             between, since that moves linearly too
-// Two boxes are apart over the whole stretch if along one axis one is below the other at begin and at end.
+//   interval  [begin, end] of time
+//   box       low(t), high(t), linear between their values at begin and end. It contains its contents at every t in
+//             between, since these move linearly too
+// Two boxes are apart over the whole interval if along one axis one is below the other at begin and at end.
 //
-// The tree is built once, by medians, over where cells are then; boxes are refitted. What moves together stays together
-// mostly; where it does not, boxes overlap more and answers stay the same.
+// The tree is built once, by medians, from the first positions of cells; boxes are refitted. Cells that move together
+// usually stay together; otherwise boxes overlap more, but the answers are the same.
 //
-// What this does not do: no distances; whoever fills in leaves adds what has to be kept clear.
+// Distances are up to the caller: add the distance to be kept clear to the boxes of the leaves.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +59,8 @@ class Hierarchy {
  public:
   using Box = MovingBox<Dim>;
 
-  /// Over cells with these centres. Pairs of cells of which `fixed` says that they never move are left out. Throws
-  /// Stopped, as do refit() and for_each_pair().
+  /// Builds the tree over cells with these centres. Pairs of cells that are both `fixed`, that is never move, are left
+  /// out. Throws Stopped, like refit() and for_each_pair().
   explicit Hierarchy(std::span<const Vector<Dim>> centres = {}, const std::vector<bool>& fixed = {}) {
     if (centres.empty()) return;
     order_.resize(centres.size());
@@ -76,7 +76,7 @@ class Hierarchy {
     }
   }
 
-  /// Takes all boxes anew; box_of(cell) gives those of the leaves.
+  /// Refits all boxes; box_of(cell) gives those of the leaves.
   template <class BoxOf>
   void refit(const BoxOf& box_of) {
     for (std::size_t n = nodes_.size(); n-- > 0;) {
@@ -90,7 +90,7 @@ class Hierarchy {
     }
   }
 
-  /// Makes the box of a cell larger, and all around it.
+  /// Enlarges the box of a cell and all boxes around it.
   void enlarge(std::uint32_t cell, const Box& box) {
     for (std::uint32_t n = place_[cell]; n != none; n = nodes_[n].parent) boxes_[n].add(box);
   }
@@ -182,7 +182,7 @@ class Hierarchy {
   }
 
   std::vector<std::uint32_t> order_;  ///< cells
-  std::vector<std::uint32_t> place_;  ///< of a cell: its leaf
+  std::vector<std::uint32_t> place_;  ///< by cell: its leaf
   std::vector<Node> nodes_;           ///< in depth-first order
   std::vector<Box> boxes_;
 };

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pair that is followed by itself: how many layers it needs, and the slab that keeps its features apart, to each of
-// whose vertices one side of it is a wall.
+// A near pair: how many layers it needs, and the slab that keeps its features apart. A side of the slab is a wall for
+// each vertex of the pair.
 //
 // Notation (Harmon et al. 2009, section 5): that of certificates/cells.h, and
 //   slab        n . x = s(t) +- half, s(t) = offset + rate (t - since), |n| <= 1 and nearly 1: A stays above, B below,
-//               so they are at least 2 half apart. The slab moves with what it separates
-//   clearance   of a vertex: how far it is on its side of its wall; linear in time between changes of velocity
+//               so they are at least 2 half apart. The slab moves with the features
+//   clearance   of a vertex: how far it is beyond its wall; linear in time between changes of velocity
 //   slack       the least clearance when the slab was put up
-//   recording   how far what is recorded may be off (certificates/decisions.h)
+//   recording   how far recorded positions may be off (certificates/decisions.h)
 //
-// What this does not do: it says nothing about when a slab fails. Vertices compare their motion with all their walls at
-// once (certificates/cells.h).
+// When a slab fails is decided by vertex, for all its walls at once (certificates/cells.h).
 #pragma once
 
 #include <array>
@@ -32,7 +31,7 @@ struct Slab {
   double half = 0;
   double slack = 0;
 
-  /// Of a vertex of A or of B that is at x at time t.
+  /// The clearance of a vertex of A or of B that is at x at time t.
   double clearance(bool of_a, const Vector<Dim>& x, double t) const {
     const double height = normal.dot(x) - (offset + rate * (t - since));
     return (of_a ? height : -height) - half;
@@ -44,15 +43,15 @@ struct Slab {
   }
 };
 
-/// Of a vector that is so long, not 0; no longer than 1, whatever is rounded.
+/// The direction of a vector with this length, not 0. Its length is at most 1, despite rounding.
 template <int Dim>
 Vector<Dim> direction(const Vector<Dim>& r, double length) {
   return r / (length * (1 + 0x1p-48));
 }
 
-/// Half way between the closest points, and moving as they do on average. Precondition: the distance is positive. The
-/// slack may come out negative: when the distance is less than 2 half, or not known well enough because the features
-/// are thin. Then the slab certifies nothing.
+/// A slab half way between the closest points, moving at their mean velocity. Precondition: the distance is positive.
+/// The slack may be negative, if the distance is less than 2 half, or is not known well enough because the features are
+/// thin. Then the slab certifies nothing.
 template <int Dim>
 Slab<Dim> slab_between(const Stencil& pair, const Closest<Dim>& closest, std::span<const Vector<Dim>> x,
                        std::span<const Vector<Dim>> v, double t, double half) {
@@ -81,7 +80,7 @@ struct LayeredPair {
   std::uint32_t layers = 0;  ///< L
 };
 
-/// Aligned, so that the slab, which is looked at far more often than the rest, is one line of the processor's cache.
+/// Aligned, so that the slab, which is read far more often than the rest, is one cache line.
 template <int Dim>
 struct NearPair : LayeredPair {
   alignas(64) Slab<Dim> slab;
@@ -103,14 +102,15 @@ class Side {
   std::uint32_t packed_;
 };
 
-/// Zeno guard: more of them at one instant, for so many things that can be repaired, are no progress.
+/// Guards against Zeno behaviour: throws if there are too many repairs at one instant, compared with the number of
+/// things that can be repaired.
 inline void require_progress(std::size_t repairs_at_once, std::size_t things) {
   constexpr std::size_t most = 1000;
   if (repairs_at_once <= most * (things + 1)) return;
   throw std::runtime_error("certificates: no end of repairs at one instant");
 }
 
-/// Of a pair, or no_material if it is none to contact.
+/// The material of a pair, or no_material if it is excluded from contact.
 template <class Host>
 std::uint16_t material_of(const Host& host, const Stencil& s) {
   bool moves = false;
@@ -118,7 +118,7 @@ std::uint16_t material_of(const Host& host, const Stencil& s) {
   return moves ? host.material(s) : no_material;
 }
 
-/// One layer more.
+/// Gives a pair one more layer.
 template <class Host>
 void gain_layer(Host& host, LayeredPair& pair, double t, CertificateCounts& counts) {
   ++pair.layers;
@@ -133,8 +133,8 @@ void lose_layer(Host& host, LayeredPair& pair, CertificateCounts& counts) {
   host.deactivate(pair.stencil, pair.material, pair.layers--);
 }
 
-/// Puts up a slab of thickness eta(L + 1) where the pair is at time t, after as many more layers as that takes. A layer
-/// is taken when the room that is left is less than a quarter of the next one's width. Returns the distance.
+/// Puts up a slab of thickness eta(L + 1) at the pair's position at time t, after adding as many layers as needed. A
+/// layer is added when the remaining room is less than a quarter of the next one's width. Returns the distance.
 template <int Dim, class Host>
 double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, CertificateCounts& counts) {
   const Stencil& s = pair.stencil;
@@ -157,8 +157,8 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, Cer
   }
 }
 
-/// Whether a pair is so far out that layer l, if it is the deepest, may go: twice as far as where it would be taken
-/// again.
+/// Whether a pair is so far apart that layer l, if it is the deepest, may be dropped: twice the distance at which it
+/// would be added again.
 template <class Host>
 bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double recording) {
   const double eta = host.thickness(material, l);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pairs that are followed by themselves, as numbers and by their vertices.
+// Stores the near pairs, by number and by their vertices.
 //
 // Notation: that of certificates/cells.h.
 //
-// Each slice has near pairs of its own, numbered as they are found; what layers a pair had in the slice before stays
-// with it. Pairs with layers are found by their stencil, others only by their vertices.
-//
-// What this does not do: it activates nothing.
+// Each slice has near pairs of its own, numbered as they are found; a pair keeps the layers that it had in the slice
+// before. Pairs with layers can be found by their stencil, others only by their vertices.
 #pragma once
 
 #include <cstddef>
@@ -21,21 +19,21 @@
 
 namespace noli::certificates {
 
-/// Numbers of pairs, found by who is in the pair.
+/// Numbers of pairs, found by the features of the pair.
 ///
-/// Pairs are kept in short lists, one for each vertex, by the first vertex of a pair: who asks for one pair after
-/// another along a surface finds them where the last ones were. (In one hash table of some million pairs nearly every
-/// question waited for memory; that was half of the time of a stack of sheets.)
+/// Pairs are in short lists, one for each vertex, by the first vertex of a pair. So queries for one pair after another
+/// along a surface find them close together in memory. (In one hash table of some million pairs nearly every query
+/// waited for memory; that was half of the time of a stack of sheets.)
 class PairNumbers {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
   explicit PairNumbers(std::size_t vertex_count) : lists_(vertex_count) {}
 
-  /// Precondition: the pair is not there.
+  /// Precondition: the pair has no number.
   void add(const Stencil& s, std::uint32_t number) { list(s).push_back({s.key, number}); }
 
-  /// Precondition: the pair is there.
+  /// Precondition: the pair has a number.
   void remove(const Stencil& s) {
     auto& pairs = list(s);
     std::size_t at = 0;
@@ -44,7 +42,7 @@ class PairNumbers {
     pairs.pop_back();
   }
 
-  /// Or none.
+  /// The number of a pair, or none.
   std::uint32_t find(const Stencil& s) const {
     for (const Entry& entry : lists_[s.vertices[0]]) {
       if (entry.key == s.key) return entry.number;
@@ -52,14 +50,14 @@ class PairNumbers {
     return none;
   }
 
-  /// Throws std::out_of_range if the pair is not there.
+  /// Throws std::out_of_range if the pair has no number.
   std::uint32_t at(const Stencil& s) const {
     const std::uint32_t number = find(s);
     if (number == none) throw std::out_of_range("certificates: a pair is not among those that are numbered");
     return number;
   }
 
-  /// Gives each pair the number that renumber(number) returns, in ascending order of first vertices.
+  /// Replaces the number of each pair by renumber(number), in ascending order of first vertices.
   template <class Renumber>
   void renumber(const Renumber& renumber) {
     for (auto& pairs : lists_) {
@@ -92,10 +90,10 @@ class NearPairs {
   std::uint32_t size() const { return static_cast<std::uint32_t>(pairs_.size()); }
   NearPair<Dim>& operator[](std::uint32_t n) { return pairs_[n]; }
   const NearPair<Dim>& operator[](std::uint32_t n) const { return pairs_[n]; }
-  /// Those that a vertex is part of.
+  /// The pairs that a vertex is part of.
   const std::vector<Side>& of(VertexId v) const { return of_[v]; }
 
-  /// Forgets all pairs, but not what layers they had.
+  /// Forgets all pairs, but keeps their layers.
   void begin_slice() {
     before_.clear();
     before_.swap(layered_);
@@ -108,7 +106,7 @@ class NearPairs {
     for (auto& list : of_) list.clear();
   }
 
-  /// With the layers that it had in the slice before. Precondition: it is not there yet.
+  /// Adds a pair, with the layers that it had in the slice before. Precondition: it has not been added yet.
   void add(const Stencil& s, std::uint16_t material) {
     const std::uint32_t n = size();
     NearPair<Dim>& pair = pairs_.emplace_back(s, material);
@@ -119,7 +117,7 @@ class NearPairs {
     layered_.add(s, n);
   }
 
-  /// Calls each(LayeredPair&) for pairs that had layers and have not been added again; then these are forgotten.
+  /// Calls each(LayeredPair&) for pairs that had layers and have not been added again, then forgets them.
   template <class Each>
   void for_each_left_out(const Each& each) {
     for (LayeredPair& pair : carried_) {
@@ -128,10 +126,10 @@ class NearPairs {
     before_.clear();
   }
 
-  /// Of a pair with layers. Throws std::out_of_range if it has none.
+  /// The number of a pair with layers. Throws std::out_of_range if it has none.
   std::uint32_t number(const Stencil& s) const { return layered_.at(s); }
 
-  /// To be called when pair n may have got its first layer or lost its last one; `had`: whether it had any before.
+  /// Call this when pair n may have got its first layer or lost its last one; `had`: whether it had any before.
   void note_layers(std::uint32_t n, bool had) {
     const bool has = pairs_[n].layers > 0;
     if (has && !had) layered_.add(pairs_[n].stencil, n);

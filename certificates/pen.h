@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A vertex's plan: a straight motion and a ball around it that it promises not to leave for a while. As long as it
-// keeps the promise, nothing that was concluded from the plan has to be looked at again. And a pen: a plan of a vertex
-// with many walls, chosen so that most of them do not reach into it.
+// A vertex's plan: a straight motion, and a ball around it that the vertex must not leave for some time. As long as it
+// does not, every conclusion from the plan holds. And a pen: a plan of a vertex with many walls, chosen so that most of
+// them do not reach into it.
 //
 // Notation: that of certificates/cells.h, and
-//   deviation   x(t) - line(t), itself linear between changes of velocity: if it is within the ball at two times, it is
-//               so between them
-//   gates   walls that do reach into the pen
-// As long as a vertex stays in its pen its gates are all the walls that it has to look at. What is struck changes its
-// velocity with every impulse and has hundreds of walls: nearly all that its certificates cost was to look at all of
-// them each time.
+//   deviation   x(t) - line(t), which is linear between changes of velocity: if it is within the ball at two times, it
+//               also is in between
+//   gates   walls that reach into the pen
+// As long as a vertex stays in its pen, only its gates need to be checked. A struck vertex changes its velocity with
+// every impulse and has hundreds of walls; checking all of them each time was nearly all the cost of its certificates.
 //
-// What this does not do: it knows no pairs; who puts up a slab says whether it reaches into the pen.
+// The caller that puts up a slab must say whether it reaches into the pen.
 #pragma once
 
 #include <algorithm>
@@ -48,15 +47,15 @@ class Pen {
  public:
   using Clearance = std::pair<double, Side>;
 
-  /// Until it is put up it holds nobody.
+  /// Before it is put up, it holds no vertex.
   bool is_up(double t) const { return t <= plan_.until; }
   void take_down() { plan_.until = -std::numeric_limits<double>::infinity(); }
 
-  /// For how many times the length of the vertex's next plan it should be put up.
+  /// How long it should be put up, as a multiple of the length of the vertex's next plan.
   double plans() const { return plans_; }
 
-  /// Around a motion from now until `until`, no wider than `widest`. `clearances`: of all walls of the vertex, the
-  /// least until then; put in another order here. `margin` is kept clear of walls that are no gates.
+  /// Puts it up around a motion from now until `until`, no wider than `widest`. `clearances`: the least clearance until
+  /// then, for all walls of the vertex; this reorders them. Keeps `margin` clear of walls that are not gates.
   void put_up(const Line<Dim>& now, double until, double widest, std::vector<Clearance>& clearances, double margin) {
     const auto gates = static_cast<std::ptrdiff_t>(clearances.size() / walls_a_gate);
     const auto first = clearances.begin() + gates;
@@ -72,10 +71,10 @@ class Pen {
     for (auto wall = clearances.begin(); wall != first; ++wall) gates_.push_back(wall->second);
   }
 
-  /// Whether a vertex that moves like this is well inside, and for a while.
+  /// Whether a vertex with this motion is well inside, and will be for some time.
   bool holds(const Line<Dim>& now) const { return is_up(now.t) && !is_old(now.t) && has_well_inside(now); }
 
-  /// To be called when it does not hold its vertex any more.
+  /// Call this when it does not hold its vertex any more.
   void take_down(const Line<Dim>& now) {
     if (is_up(now.t) && is_old(now.t) && has_well_inside(now)) plans_ = std::min(2 * plans_, most_plans);
     take_down();

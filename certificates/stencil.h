@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two features that may come near each other, and who they are for good.
+// Two features that may come near each other, with a permanent key.
 //
 // Notation
 //   A, B     the two features; vertices of A come first
-//   key      64 bits that name a pair whatever happens in a run: kind, then the numbers of its features. Everything
-//            that happens to several pairs at one time happens in the order of their keys
+//   key      64 bits that identify a pair throughout a run: kind, then the numbers of its features. Pairs with events
+//            at the same time are processed in the order of their keys
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Stencil {
   std::size_t size() const { return point_count(kind); }  ///< of both
 };
 
-/// Preconditions: a, b < 2^31: numbers of the features, each among those of its sort.
+/// a, b: the numbers of the features, each among features of its kind. Precondition: a, b < 2^31.
 constexpr PairKey pair_key(FeaturePair kind, std::uint32_t a, std::uint32_t b) {
   return static_cast<PairKey>(kind) << 62 | static_cast<PairKey>(a) << 31 | b;
 }

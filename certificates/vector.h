@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points and straight motions of the certificates: Eigen's small vectors, without its vector instructions, so that the
-// bits are those of the formulas.
+// Points and straight motions of the certificates: Eigen's small vectors, without vector instructions, so that results
+// are bit for bit those of the formulas.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace noli::certificates {
 template <int Dim, class S = double>
 using Vector = Eigen::Matrix<S, Dim, 1, Eigen::DontAlign>;
 
-/// A vertex as it moves until its velocity changes: x + (time - t) v.
+/// The motion of a vertex until its velocity changes: x + (time - t) v.
 template <int Dim>
 struct Line {
   Vector<Dim> x;

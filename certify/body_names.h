@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vertices and features by the names of their bodies: "vertex cloth[7] meets edge floor[0]-floor[1]".
+// Names vertices and features by their bodies: "vertex cloth[7] meets edge floor[0]-floor[1]".
 #pragma once
 
 #include <span>
@@ -24,27 +24,27 @@ class BodyNames {
   /// No bodies: vertices are named by their numbers.
   explicit BodyNames(std::vector<Body> bodies = {}) : bodies_(std::move(bodies)) {}
 
-  /// As to_json() gave it. Of anything else, no bodies.
+  /// The inverse of to_json(); no bodies for any other JSON.
   static BodyNames from_json(const Json& json);
   Json to_json() const;
 
-  /// Whether there are any.
+  /// Whether there are any bodies.
   bool known() const { return !bodies_.empty(); }
   const std::vector<Body>& bodies() const { return bodies_; }
-  /// The bodies that have any of these vertices, in the order of bodies; of vertices without a body nothing.
+  /// The bodies that have any of these vertices, in the order of bodies; vertices without a body are ignored.
   std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;
   /// A vertex by its body and its number there.
   std::string vertex(VertexId v) const;
   /// "vertex a[0]", "edge a[0]-a[1]" or the like. Precondition: one to three vertices.
   std::string feature(std::span<const VertexId> vertices) const;
-  /// Both features of a pair, with a word between them. `vertices`: those of the first come first.
+  /// Both features of a pair, with a word between them. `vertices`: those of the first feature come first.
   std::string pair(FeaturePair kind, std::span<const VertexId> vertices, const std::string& between) const;
 
  private:
   std::vector<Body> bodies_;
 };
 
-/// Those of a scene that was built: anything with name, first and vertices.
+/// The names for the bodies of a built scene: anything with name, first and vertices.
 template <class Bodies>
 BodyNames names_of(const Bodies& built) {
   std::vector<BodyNames::Body> bodies;

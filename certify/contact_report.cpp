@@ -15,7 +15,7 @@ namespace noli {
 namespace {
 
 MeetingBodies meeting_bodies(const integrator::BuiltContact& contact) {
-  std::set<std::array<std::uint64_t, 2>> all;  // those of two classes of a body count once
+  std::set<std::array<std::uint64_t, 2>> all;  // pairs that differ only in the classes of a body count once
   for (const auto& pair : contact.pairs) all.insert({pair.bodies[0], pair.bodies[1]});
   MeetingBodies result;
   for (const auto& pair : all) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contacts in words and as JSON, the same in every command.
+// Contacts as text and as JSON, the same in every command.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ namespace noli {
 /// {"pair": "edge_edge", "features": [[a, b], [c, d]]}
 Json contact_json(const FeatureContact& contact);
 
-/// Of a material, which bodies meet so, by their numbers.
+/// The pairs of bodies, by their numbers, that meet with one material.
 struct MeetingBodies {
   static constexpr std::size_t most = 6;
-  std::vector<std::array<std::uint64_t, 2>> pairs;  ///< at most so many
-  std::uint64_t more = 0;                           ///< that are not told
+  std::vector<std::array<std::uint64_t, 2>> pairs;  ///< at most `most`
+  std::uint64_t more = 0;                           ///< number of further pairs
 };
 
 /// The same with cells, bodies, kind, step, time and point.
 Json contact_json(const ListedContact& listed);
 
-/// What the layers of a model are: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}; where there are
-/// several materials, each with "pairs" and "more_pairs" of MeetingBodies. `built`: one for each material.
+/// The layers of a model: {"most_layers": n, "layers": [4 a, 4 b, 4 c], "materials": [...]}. If there are several
+/// materials, each has "pairs" and "more_pairs" of MeetingBodies. `built`: one for each material.
 Json contact_json(const integrator::ContactSettings& settings, std::span<const integrator::BuiltContact> built);
 
 /// All zero in scenes without contact.
@@ -48,7 +48,7 @@ std::string contact_text(const FeatureContact& contact);
 /// "edge 1-2 × edge 7-9"
 std::string pair_in_short(const FeatureContact& contact);
 
-/// "vertex 12 (shirt) × face 7 (floor)": a face by its number, and bodies where they have names.
+/// "vertex 12 (shirt) × face 7 (floor)": a face by its number, and bodies if they have names.
 std::string pair_in_short(const ListedContact& listed);
 
 /// "vertex 12 (shirt) × face 7 (floor) at (0.12, 0.98, -0.31)"

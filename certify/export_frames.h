@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames of a run as files of one pattern, whatever is written of each.
+// Exports the frames of a run as files of one pattern, with any writer.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace noli {
 
 using FrameWriter = std::function<void(const Frame& frame, const std::filesystem::path& path)>;
 
-/// As run_export() does it, with files of any ending and without a series for ParaView.
+/// Like run_export(), but with files of any extension and without a series for ParaView.
 ExportOutcome export_frames(const ExportRequest& request, const FrameWriter& write);
 
 }  // namespace noli

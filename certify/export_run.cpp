@@ -23,7 +23,7 @@
 namespace noli {
 namespace {
 
-/// "frames/%05d.ply": what is before and after the number, and how wide it is.
+/// A pattern such as "frames/%05d.ply": the text before and after the number, and its width.
 struct Pattern {
   std::string before, after;
   std::size_t width = 0;
@@ -31,7 +31,7 @@ struct Pattern {
   std::filesystem::path file(std::uint64_t i) const { return fmt::format("{}{:0{}}{}", before, i, width, after); }
   std::filesystem::path folder() const { return file(0).parent_path(); }
 
-  /// The number in the name of a file of the folder, if it is one of the pattern.
+  /// The number in the name of a file of the folder, if the file matches the pattern.
   std::optional<std::uint64_t> number(const std::filesystem::path& path) const {
     const std::string name = path.filename().string();
     const std::size_t begin = std::filesystem::path(before).filename().string().size();
@@ -92,7 +92,7 @@ class Export {
   }
 
  private:
-  /// What earlier exports left.
+  /// Finds the files of earlier exports.
   void find_earlier() {
     const std::filesystem::path folder = pattern_.folder();
     std::error_code error;
@@ -131,7 +131,7 @@ class Export {
     return outcome_.interrupted;
   }
 
-  /// Beside the frames, named like them without the number.
+  /// The file for ParaView: next to the frames, named like them without the number.
   std::filesystem::path pvd_path() const {
     std::string stem = std::filesystem::path(pattern_.before).filename().string();
     while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();

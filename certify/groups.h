@@ -4,7 +4,7 @@
 //
 //   {"groups": {"cloth": [[0, 4999]], "body": [[5000, 9999], 12000]}, "ignore": [["cloth", "body"], ["body", "body"]]}
 //
-// Vertices are numbers or [first, last], both included. Those of no group belong to none of the pairs.
+// Vertices are numbers or [first, last], both included. Vertices without a group are compared with everything.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@
 namespace noli {
 
 struct Groups {
-  std::vector<std::string> names;  ///< of group g from 1 on at g; 0 are the vertices of no group
+  std::vector<std::string> names;  ///< by group, from 1 on; group 0 has the vertices without a group
   Exclusions exclusions;
 };
 
-/// For meshes of so many vertices. Throws InputError, with the JSON pointer: no such file, no JSON, other fields, a
-/// vertex that is not there or in two groups, a pair that names no group, no pair at all.
+/// `vertices`: the number of vertices of the mesh. Throws InputError, with the JSON pointer: no such file, not JSON,
+/// other fields, a vertex that does not exist or is in two groups, a pair that names no group, no pair at all.
 Groups read_groups(const std::filesystem::path& file, std::size_t vertices);
 
 /// Throws InputError when a cell has vertices of two groups.

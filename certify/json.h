@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// JSON as `noli` writes it: keys in a fixed order, numbers with 17 significant digits, so that equal results are equal
-// bytes.
+// Writes JSON with keys in a fixed order and numbers with 17 significant digits, so that equal results are equal bytes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,14 +13,14 @@ namespace noli {
 
 using Json = nlohmann::ordered_json;
 
-/// A number as JSON and the text have it: 17 significant digits, which name one double only.
+/// A number for JSON and text: 17 significant digits, which identify one double.
 std::string digits17(double number);
 
-/// A number that is not negative, to be read at a glance: rounded to four digits, but never from below 1 to 1, so that
-/// no time before the end of a step reads as its end.
+/// A number >= 0 for people: rounded to four digits, but never from below 1 to 1, so that a time before the end of a
+/// step does not look like its end.
 std::string digits4(double number);
 
-/// The document with an indentation of two and a newline at its end. Bytes that are no UTF-8 (in names of files) are
+/// The document with an indentation of two and a newline at its end. Bytes that are not UTF-8 (in file names) are
 /// replaced. Numbers that are not finite become null.
 std::string to_text(const Json& document);
 

@@ -24,7 +24,7 @@ Position between_edges(FeaturePair pair, std::span<const Position> x) {
   for (const Position& corner : x) {
     for (const double coordinate : corner) greatest = std::max(greatest, std::abs(coordinate));
   }
-  const int exponent = greatest > 0 ? std::ilogb(greatest) : 0;  // squares of what is scaled by it do not overflow
+  const int exponent = greatest > 0 ? std::ilogb(greatest) : 0;  // scaled by it, squares do not overflow
   std::array<Vector<Dim>, 4> corners;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) corners[i][d] = std::ldexp(x[i][d], -exponent);
@@ -44,7 +44,7 @@ std::span<const VertexId> feature(const FeatureContact& contact, std::size_t whi
   return which == 0 ? all.first(first) : all.subspan(first);
 }
 
-/// Looks through the cells of a mesh once for all features that are asked for.
+/// Finds the cells of all requested features in one pass over the mesh.
 class Owners {
  public:
   explicit Owners(std::span<ListedContact*> contacts) {
@@ -101,7 +101,7 @@ std::vector<std::size_t> fair_shares(std::span<const std::size_t> counts, std::s
     const std::size_t steps = sorted.size() - i;
     share = left / steps;
     more = left % steps;
-    if (sorted[i] > share) break;  // as have all that follow
+    if (sorted[i] > share) break;  // and so have all that follow
     share = sorted[i];
     more = 0;
     left -= sorted[i];
@@ -122,7 +122,7 @@ void ContactList::add(std::size_t step, const std::optional<ListedContact>& firs
   std::vector<FeatureContact> others(contacts.begin(), contacts.end());
   if (first) std::erase(others, first->contact);
   const std::size_t count = others.size() + (first ? 1 : 0);
-  if (count == 0 || counts_.size() >= most_) return;  // then each step has its one already
+  if (count == 0 || counts_.size() >= most_) return;  // each step then has its one contact already
   counts_.push_back(count);
   const std::vector<std::size_t> shares = fair_shares(counts_, most_);
   cut_to(shares);

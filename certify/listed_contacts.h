@@ -4,11 +4,12 @@
 //
 // Notation
 //   share   how many of a step's contacts are listed. All steps have the same share; a step with fewer contacts leaves
-//           the rest to the others. What does not divide goes to the earlier steps
+//           the rest to the others. A remainder goes to the earlier steps
 //
-// A share never grows when a further step comes. So a step is looked at for what it has at that time, and cut later.
+// A share never grows when a further step comes. So each step lists as many as its share is at that time, and is cut
+// later.
 //
-// What this does not do: it finds no contacts. The point is computed in double, for people and pictures.
+// The point is computed in double, for people and pictures.
 #pragma once
 
 #include <cstddef>
@@ -25,25 +26,25 @@
 
 namespace noli {
 
-/// Where the two features meet, whose vertices are at x: those of the first feature come first.
+/// The point at which two features meet. x: the positions of their vertices, those of the first feature first.
 Position meeting_point(FeaturePair pair, int dimension, std::span<const Position> x);
 
 /// The first contact of a window with these lines, without its step.
 ListedContact listed_in_window(const FirstInWindow& first, const WorldLines& lines, int dimension);
 
-/// How many of `counts` each step may list, `most` in all.
+/// How many contacts each step may list: at most its entry of `counts`, and `most` in all.
 std::vector<std::size_t> fair_shares(std::span<const std::size_t> counts, std::size_t most);
 
 /// Lists the contacts of steps that come one after another.
 class ContactList {
  public:
-  /// Tells kind, time and point of a contact of the step.
+  /// Finds kind, time and point of a contact of the step.
   using Exactly = std::function<ListedContact(const FeatureContact&)>;
 
   explicit ContactList(std::size_t most) : most_(most) {}
 
-  /// The contacts of the next step. `first`: the one that is listed first, or nothing. `stopped`: no more is listed
-  /// once it says so.
+  /// The contacts of the next step. `first`: the one that is listed first, or nothing. Lists no more once `stopped`
+  /// returns true.
   void add(std::size_t step, const std::optional<ListedContact>& first, std::span<const FeatureContact> contacts,
            const Exactly& exactly, const std::function<bool()>& stopped);
   std::vector<ListedContact> take();
@@ -53,7 +54,7 @@ class ContactList {
 
   std::size_t most_;
   std::vector<std::size_t> counts_;                ///< of the steps that have any: how many could be listed
-  std::vector<std::vector<ListedContact>> steps_;  ///< what is listed of them
+  std::vector<std::vector<ListedContact>> steps_;  ///< the listed contacts of these steps
 };
 
 /// Fills in cells and bodies. Precondition: the contacts are about vertices of the mesh.

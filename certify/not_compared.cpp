@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_named = 8;
 
-/// The body of a group's vertices, or its number where no body is known.
+/// The body of a group's vertices, or the number of the group if no body is known.
 std::string group_name(std::uint16_t group, const Exclusions& exclusions, const BodyNames& names) {
   const auto found = std::find(exclusions.groups.begin(), exclusions.groups.end(), group);
   const VertexId vertex[] = {static_cast<VertexId>(found - exclusions.groups.begin())};

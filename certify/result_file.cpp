@@ -16,8 +16,8 @@ namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-/// A file beside the one that it is to become; removed if that does not come to pass. Its name is short, so that it is
-/// not too long where the target's is not.
+/// A temporary file next to its target, removed unless it is renamed. Its name is short, so that it is not too long
+/// when the target's name is not.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)
@@ -33,8 +33,8 @@ class TemporaryFile {
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
 
-  /// Gives it the owner and permissions of the file that it replaces, or the permissions of any new file (mkstemp gives
-  /// a file to its owner alone).
+  /// Gives it the owner and permissions of the file that it replaces, or the default permissions of a new file (with
+  /// mkstemp only the owner has access).
   bool take_permissions_for(const std::string& target) const {
     struct stat old = {};
     if (::stat(target.c_str(), &old) != 0) {
@@ -75,8 +75,8 @@ std::string link_target(const std::string& path) {
   return error ? path : target.string();
 }
 
-/// Whether a file that exists may be written but not replaced: its folder is not ours to change, or it is a mount
-/// point. Judged by why replacing it failed.
+/// Whether an existing file may be written but not replaced: its folder may not be changed, or it is a mount point.
+/// Judged by the error of the attempt to replace it.
 bool must_be_kept(int error) { return error == EACCES || error == EPERM || error == EBUSY; }
 
 bool can_write(const std::string& path) {
@@ -89,8 +89,9 @@ bool can_write(const std::string& path) {
   return exists && must_be_kept(errno);
 }
 
-/// Whether files can be made in a folder. Tried, as permissions do not tell: root has them all, also where no files can
-/// be, as in /proc. The file has no name, so that none is left by a kill; where there are no such files, it has one.
+/// Whether files can be created in a folder. It tries, as permissions are not enough: root has them all, even where
+/// files cannot be created, as in /proc. The file has no name, so that a kill leaves none behind, unless the file
+/// system does not support this.
 bool can_make_files(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor >= 0) return ::close(descriptor) == 0;
@@ -104,7 +105,7 @@ bool replace_file(const std::string& path, const std::string& text) {
          file.move_to(target);
 }
 
-/// A device, a pipe, or a file that must be kept.
+/// Writes to a device, a pipe, or a file that must be kept.
 bool write_in_place(const std::string& path, const std::string& text) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   if (descriptor < 0) return false;

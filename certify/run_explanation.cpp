@@ -81,7 +81,7 @@ class Explaining {
     add_works(row, energy);
   }
 
-  /// The lists are as long in every row (certify/runs/run_series_check.h).
+  /// The lists have the same lengths in every row (certify/runs/run_series_check.h).
   static void add_works(const SeriesRow& row, EnergySummary& energy) {
     for (std::size_t k = 0; k < force_kinds; ++k) {
       energy.damping_work += row.damping_work[k];
@@ -115,7 +115,7 @@ class Explaining {
   const std::filesystem::path& run_;
   LogFacts log_;
   SeriesReader reader_;
-  std::optional<WorldLines> nearest_lines_;  ///< of the window in which things came nearest
+  std::optional<WorldLines> nearest_lines_;  ///< of the window with the nearest pair
   RunExplanation result_;
 };
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What happened in a run, from its files alone.
+// Summarises what happened in a run, from its files alone.
 //
-// Notation, beside that of include/noli/explain.h
-//   bound              what certificates say of all pairs: none was nearer than eta(L + 1), L the deepest layer that
-//                      was ever active
-//   part               from the run's begin or a resumption to its end, if it came to one: a part that was killed has
-//                      none, and what it would have said of clocks and certificates is lost
+// Notation, in addition to that of include/noli/explain.h
+//   bound              from certificates, for all pairs: none was nearer than eta(L + 1), L the deepest layer that was
+//                      ever active
+//   part               from the beginning of the run, or a resumption, to an end in the log. A part that was killed has
+//                      no end, and its clocks and certificates are not in the log
 //
-// What this does not do: it verifies nothing (`noli verify RUN` does).
+// It verifies nothing (`noli verify RUN` does).
 #pragma once
 
 #include <filesystem>
@@ -21,11 +21,11 @@
 
 namespace noli {
 
-/// With what its log says.
+/// The summary of a run, with facts from its log.
 struct RunExplanation : RunSummary {
   LogFacts log;
 
-  /// Of these materials, the least eta(L + 1) [m]; nothing without contact, or when the log does not tell it all.
+  /// The least eta(L + 1) of all materials [m]; nothing without contact, or when the log is incomplete.
   std::optional<double> bound() const;
 };
 

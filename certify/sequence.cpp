@@ -53,7 +53,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   return result;
 }
 
-/// Exclusions are known to windows alone.
+/// Only the verifier of windows supports exclusions.
 VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                                               const VerifyOptions& options) {
   if (options_.exclusions == nullptr) return verify_step(mesh_, x_t0, x_t1, options);
@@ -65,8 +65,9 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
   return {std::move(static_cast<Findings&>(found)), first, nullptr};
 }
 
-/// What meets where a later step begins met where the step before ended, and was counted there. Those pairs are the
-/// ones that meet when everything rests where the step begins. Whether there are any.
+/// Drops the pairs that meet at the beginning of a step: they met at the end of the step before, and were counted
+/// there. They are the pairs that meet when everything rests at the positions of that moment. Returns whether there are
+/// any.
 bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1,
                                               StepResult& result) {
   VerifyOptions options = step_options();
@@ -74,7 +75,7 @@ bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, st
   options.max_reports = 0;
   const VerifyResult resting = verify_between(x_t0, x_t0, options);
   if (resting.contact_count() > 0 && result.reports.size() == options_.max_reports) {
-    VerifyOptions more = step_options();  // those that go on have taken the room of others
+    VerifyOptions more = step_options();  // the dropped ones have taken places in the list
     more.max_reports += resting.contact_count();
     VerifyResult again = verify_between(x_t0, x_t1, more);
     if (again.complete) result.reports = std::move(again.reports);

@@ -5,7 +5,7 @@
 
 namespace noli {
 
-/// Seconds since it was made.
+/// Counts seconds since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

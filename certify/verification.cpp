@@ -31,7 +31,7 @@ void drop_met_before(Findings& found, const Findings& resting, int dimension, st
   found.complete = found.complete && resting.complete;
   found.stages += resting.stages;
   for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    // Counts of what is not complete are lower bounds, and so must the difference be.
+    // Incomplete counts are lower bounds, and the difference must be one too.
     const std::uint64_t before = resting.complete ? resting.contacts[i] : found.contacts[i];
     found.contacts[i] -= std::min(found.contacts[i], before);
   }
@@ -46,7 +46,7 @@ void Verification::add(const Findings& found, std::optional<ListedContact> first
   const std::size_t step = outcome_.steps.size() + 1;
   if (first) first->step = step;
   if (!outcome_.first) outcome_.first = first;
-  if (goes_on) first.reset();  // it may be one of those that go on
+  if (goes_on) first.reset();  // it may be a contact that goes on
   listed_.add(step, first, found.reports, exactly, [this] { return stopped(); });
   outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on, std::move(first)});
   for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += found.contacts[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the verifications of frames and of runs share: they add the findings of each step, then set the verdict.
+// Shared by the verifications of frames and of runs: adds the findings of each step, then sets the verdict.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const 
 /// Kind and time of a contact that was found; `query`: its features.
 FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query);
 
-/// Takes away what was counted in the step before: what meets where this one begins. `resting`: what is found of all
-/// vertices at rest there, in x, with no reports.
+/// Removes the pairs that meet at the beginning of a step, which were counted in the step before. `resting`: the
+/// findings with all vertices at rest at x, without reports.
 void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x);
 
 class Verification {
@@ -31,18 +31,18 @@ class Verification {
   explicit Verification(const VerifyRequest& request) : request_(request), listed_(request.max_reports) {}
 
   bool stopped() { return outcome_.stop_for(request_); }
-  /// Whether what was found is all that was asked for.
+  /// Whether enough was found to stop.
   bool enough() const { return outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going); }
 
-  /// Of the next step. `first`: the contact with which it begins. `goes_on`: contacts of the step before do, and are
-  /// not counted again.
+  /// Adds the findings of the next step. `first`: its first contact. `goes_on`: contacts of the step before go on, and
+  /// are not counted again.
   void add(const Findings& found, std::optional<ListedContact> first, bool goes_on,
            const ContactList::Exactly& exactly);
   /// Lists contacts with their cells and bodies. Call it when all steps have been added.
   void list_contacts(const Mesh& mesh, const BodyNames& names);
 
-  /// Finds the proof of the last step, in which nothing touches. If something is too near, it finds a witness instead,
-  /// and in the first step the largest least distance that holds.
+  /// Finds the proof of the last step, in which nothing touches. If something is too near, finds a witness instead, and
+  /// in the first step the largest least distance that holds.
   void search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
                     const VerifyOptions& options);
   /// Writes a witness for a step in which something touches, if there is one.
@@ -57,7 +57,7 @@ class Verification {
     if (request_.progress) request_.progress(work, share);
   }
 
-  /// `all`: nothing is left to be looked at.
+  /// `all`: every step was verified.
   void set_verdict(bool all);
 
   const VerifyRequest& request_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli verify RUN`: the windows of a run again, from its files alone.
+// `noli verify RUN`: verifies the windows of a run again, from its files alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
   return ending;
 }
 
-/// Nothing when the duration is not known, or no number of windows reaches up to it.
+/// The total number of windows; nothing if the duration is unknown, or needs too many windows to count.
 std::optional<std::uint64_t> windows_total(const RunEnding& ending, std::uint64_t there, double window) {
   const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
   if (!(windows > 0 && windows < 0x1p53)) return std::nullopt;
@@ -121,7 +121,7 @@ class RunVerification : private Verification {
     return window;
   }
 
-  /// Of a run that is being written: up to where it was when it was opened.
+  /// The next window; if the run is being written, only up to its end when it was opened.
   std::optional<RunWindow> next_of_those_there() {
     const bool enough = live_ && reader_.windows() >= outcome_.steps_total;
     auto window = enough ? std::nullopt : next_committed();
@@ -129,7 +129,8 @@ class RunVerification : private Verification {
     return window;
   }
 
-  /// Whether it is still written is asked before it is looked at: what comes with the end is seen then.
+  /// Checks whether the run is still being written before it reads, so that windows written just before the end are
+  /// seen.
   std::optional<RunWindow> wait_for_next() {
     constexpr auto pause = std::chrono::milliseconds(50);
     while (!stopped()) {
@@ -142,7 +143,7 @@ class RunVerification : private Verification {
     return std::nullopt;
   }
 
-  /// What is not committed yet may be taken back while it is read.
+  /// Retries, as windows that are not committed yet may be taken back while they are read.
   std::optional<RunWindow> next_committed() {
     constexpr auto pause = std::chrono::milliseconds(20);
     for (int more = 20;; --more) {
@@ -158,7 +159,7 @@ class RunVerification : private Verification {
     }
   }
 
-  /// There is none, once nobody writes to the run any more and its log tells of no more.
+  /// The next window when no process writes to the run any more; nothing if its log has no more.
   std::optional<RunWindow> next_behind_the_last() {
     log_ = read_log(run_);
     outcome_.ending = ending_of(run_, log_);
@@ -189,12 +190,12 @@ class RunVerification : private Verification {
         "simulate SCENE.json -o RUN`");
   }
 
-  /// The model of the scene, to integrate its windows again.
+  /// Builds the model of the scene, to integrate its windows again.
   void make_again() {
     again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
   }
 
-  /// Gives the window the world lines that it comes to when it is integrated again. False if it was stopped.
+  /// Integrates the window again and gives it its world lines. False if it was stopped.
   bool reproduce(RunWindow& window) {
     if (!again_) return true;
     const Stopwatch watch;
@@ -262,7 +263,7 @@ class RunVerification : private Verification {
     outcome_.proof_seconds += watch.seconds();
   }
 
-  /// World lines that are in no file: the checker reads them on their way, window by window.
+  /// Streams world lines that are in no file to the checker, window by window.
   void give_lines(RunWindow& window) {
     if (request_.trajectory_pipe == nullptr) return;
     request_.trajectory_pipe->drained();
@@ -276,7 +277,8 @@ class RunVerification : private Verification {
     lines_->commit();
   }
 
-  /// What meets where a window begins was counted in the window before. Whether anything does.
+  /// Drops the pairs that meet at the beginning of a window, which were counted in the window before. Returns whether
+  /// there are any.
   bool drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
     const std::vector<Position> x = beginning_of(*window.lines);
     WindowOptions resting = options();
@@ -285,7 +287,7 @@ class RunVerification : private Verification {
     const WindowResult met = verifier_->verify(WorldLines::from_frames(x, x), resting);
     const std::size_t most = options().max_reports;
     if (met.contact_count() > 0 && result.reports.size() == most) {
-      WindowOptions more = options();  // those that go on have taken the room of others
+      WindowOptions more = options();  // the dropped ones have taken places in the list
       more.max_reports += met.contact_count();
       WindowResult again = verifier_->verify(*window.lines, more);
       if (again.complete) result.reports = std::move(again.reports);
@@ -306,13 +308,13 @@ class RunVerification : private Verification {
         windows_total(*outcome_.ending, outcome_.steps_total, reader_.header().window_length);
     outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
     if (live_) say_that_it_is_written();
-    // A run of which nothing was committed yet proves nothing.
+    // A run without committed windows proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
     set_verdict(ended_);
     list_contacts(reader_.mesh(), log_.names);
   }
 
-  /// Not of a run that was killed while it was verified.
+  /// Notes whether the run is being written, but not if it was killed meanwhile.
   void say_that_it_is_written() {
     outcome_.ending->being_written = is_locked(run_);
     outcome_.notes.push_back(
@@ -324,14 +326,14 @@ class RunVerification : private Verification {
   bool live_;  ///< another process writes to it
   LogFacts log_;
   SeriesReader reader_;
-  std::optional<WindowVerifier> verifier_;  ///< made where the run begins
+  std::optional<WindowVerifier> verifier_;  ///< made from the first positions of the run
   std::unique_ptr<StepProofs> proof_;
   std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
   std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
   bool witness_sought_ = false;
   bool meeting_at_end_ = false;
   bool ended_ = false;                 ///< all windows have been read
-  double look_end_ = 0, read_to_ = 0;  ///< ends of the last window, by a quick look, and of the last that was read [s]
+  double look_end_ = 0, read_to_ = 0;  ///< ends of the last window by a quick look, and of the last window read [s]
 };
 
 }  // namespace

@@ -33,8 +33,8 @@ namespace {
 
 Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
 
-/// A frame that is not there is noticed before the work begins, not an hour later. Nothing is opened: that would wait
-/// for the writer of a pipe, and take its only reader away from it.
+/// Reports a missing frame before the work begins, not an hour later. Opens nothing: that would wait for the writer of
+/// a pipe, and take its only reader away from it.
 void require_readable(const std::vector<std::filesystem::path>& paths) {
   for (const auto& path : paths) {
     if (path == "-") continue;
@@ -115,7 +115,7 @@ class SequenceVerification : private Verification {
     append_frames(*given_);
   }
 
-  /// A frame of another mesh is noticed before the first step is decided.
+  /// Reports a frame with another mesh before the first step is decided.
   void look_at_all() {
     const Stopwatch watch;
     try {
@@ -130,7 +130,7 @@ class SequenceVerification : private Verification {
     outcome_.read_seconds += watch.seconds();
   }
 
-  /// Whether there was another step. Not when the user would not wait for it.
+  /// Whether there was another step; false if the user stopped the reading.
   bool read_next(FrameSequence& sequence) {
     const Stopwatch watch;
     bool read = false;
@@ -153,7 +153,7 @@ class SequenceVerification : private Verification {
     }
   }
 
-  /// What the first step tells about all of them.
+  /// Sets up what the first step decides for all steps.
   void begin() {
     Mesh mesh = sequence_.mesh();
     const auto unreferenced = unreferenced_vertices(mesh);
@@ -180,7 +180,7 @@ class SequenceVerification : private Verification {
     verifier_.emplace(std::move(mesh), options());
   }
 
-  /// Pairs of groups are not compared.
+  /// Reads the pairs of groups that are not compared.
   void leave_out(const std::filesystem::path& file, const Mesh& mesh) {
     groups_ = read_groups(file, mesh.vertex_count);
     for (VertexId v = 0; classes_ && v < mesh.vertex_count; ++v) {
@@ -206,7 +206,7 @@ class SequenceVerification : private Verification {
                      "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
   }
 
-  /// Two equal frames in a row are usually a mistake of whoever wrote them.
+  /// Notes two equal frames in a row, which are usually a mistake in the files.
   void note_rest() {
     if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
     at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.name_t0(),

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What friction remembers. Friction that only stops slip lets things creep: each impulse is bounded by that of the
-// normal force at its time, and what it could not stop then stays. So each pair that rubs has an anchor, the points
-// that were closest when it began to, and is pulled back to it as by a spring (Cundall and Strack, "A discrete
+// Anchors, the memory of friction. Friction that only stops slip lets bodies creep: each impulse is bounded by the
+// normal force at its time, and slip that it could not stop remains. So each rubbing pair has an anchor: the points
+// that were closest when it began to rub. It is pulled back to them as by a spring (Cundall and Strack, "A discrete
 // numerical model for granular assemblies", 1979), until that would take more than Coulomb's friction; then the anchor
 // is dragged along.
 //
-// An anchor begins when a layer with friction first acts on a pair, and lasts for as long as layers do again, each time
-// within `life` of the one before. It is a property of the motion: certificates know nothing of it.
+// An anchor begins when a layer with friction first acts on a pair. It lasts as long as layers act again, each time
+// within `life` of the previous time. It is a property of the motion, independent of certificates.
 //
-// What this does not do: forces (integrator/contact_impulse.h).
+// integrator/contact_impulse.h computes the forces.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Anchor {
   FeaturePair kind{};
   std::array<VertexId, 4> vertices{};
   std::array<S, 4> weights{};  ///< of the closest points, as in certificates/closest.h
-  double until = 0;            ///< when it ends if nothing renews it [s]
+  double until = 0;            ///< when it ends unless it is renewed [s]
 
   friend bool operator==(const Anchor&, const Anchor&) = default;
 };
@@ -37,8 +37,8 @@ struct Anchor {
 template <class S>
 class Anchors {
  public:
-  /// The anchor's weights of a pair that a layer acts on at time t. A pair that has no anchor gets one, at its closest
-  /// points.
+  /// The anchor's weights, for a pair on which a layer acts at time t. A pair without an anchor gets one, at its
+  /// closest points.
   std::array<S, 4>& renew(const certificates::Stencil& pair, const std::array<S, 4>& closest, double t, double life) {
     if (all_.size() >= most_) forget(t);
     const auto [found, is_new] = all_.try_emplace(Key{pair.kind, pair.vertices}, Held{closest, t});
@@ -48,7 +48,7 @@ class Anchors {
     return held.weights;
   }
 
-  /// Those that last beyond a time, in an order of their own.
+  /// The anchors that last beyond a time, in a fixed order.
   std::vector<Anchor<S>> after(double t) const {
     std::vector<Anchor<S>> result;
     for (const auto& [key, held] : all_) {
@@ -58,7 +58,7 @@ class Anchors {
     return result;
   }
 
-  /// Begins with these.
+  /// Replaces all anchors by these.
   void restore(std::span<const Anchor<S>> anchors) {
     all_.clear();
     for (const Anchor<S>& a : anchors) all_[Key{a.kind, a.vertices}] = {a.weights, a.until};
@@ -88,7 +88,7 @@ class Anchors {
   }
 
   std::unordered_map<Key, Held, Hash> all_;
-  std::size_t most_ = 1024;  ///< when it is time to forget
+  std::size_t most_ = 1024;  ///< the number at which old anchors are dropped
 };
 
 }  // namespace noli::integrator

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who did how much work: the energy and momentum books of a window.
+// The energy and momentum books of a window: which force did how much work.
 //
 // Notation
 //   event  all groups of forces that strike at one time (integrator/instant.h); a force with a clock of its own;
-//          gravity on one vertex, where it acts without a group; or a layer of contact, for one pair: all its
-//          impulses, those of a potential and those that take energy
+//          gravity on one vertex, if it acts without a group; or a layer of contact, for one pair: all its impulses,
+//          those of a potential and those that take energy
 //   J      an impulse of an event on a particle [N s]; v, v' the particle's velocities before and after the event
-//   work   J . (v + v') / 2. That of all impulses of an event is the change of kinetic energy, whatever their size; it
-//          is never a difference of energies, which would lose the digits that matter
+//   work   J . (v + v') / 2. The works of all impulses of an event add up to the change of kinetic energy, for impulses
+//          of any size. It is never computed as a difference of energies, which would lose digits
 //
-// What happens at one time is one event as far as it can be: while forces that nearly balance strike one after another,
-// a particle has velocities that no motion has.
+// Everything at one time is one event if possible: between the strikes of forces that nearly balance, a particle has
+// velocities that are not part of the motion.
 //
-// Impulses on pinned and scripted particles do work too, with the velocity that the scene gives; its negative is what
-// those who hold them put in, which is booked by script. The kinetic energy is that of free particles, so the
-// works of a window, the scripts' included, add up to its change between the window's ends: the books are closed.
+// Impulses on pinned and scripted particles do work too, with the velocity that the scene gives. The negative of that
+// work is what the holder of the particles puts in; it is booked by script. Kinetic energy is that of free particles.
+// So the works of a window, including those of scripts, add up to its change between the window's ends: the books are
+// closed.
 //
-// Where a layer of contact parts, restitution withholds a part of the impulse that the layer's potential gives. The
-// potential's work is booked in full, and that of what was withheld, with its sign turned, as restitution's.
+// When the features of a contact part, restitution withholds a part of the impulse that the layer's potential gives.
+// The work of the full impulse is booked for the potential, and the negative work of the withheld part for restitution.
 //
-// The impulses of an elastic force add up to zero (and so do their moments); what is booked is what pinned and scripted
-// particles take out of the momentum of the others.
+// The impulses of an elastic force add up to zero (and so do their moments). The books have the momentum that pinned
+// and scripted particles take from the others.
 //
-// What this does not do: it knows no potential energies (integrator/energy.h).
+// integrator/energy.h computes potential energies.
 #pragma once
 
 #include <algorithm>
@@ -57,9 +58,9 @@ struct Account {
   S work{};                                                 ///< of the impulses that potentials give [J]
   S damping_work{};                                         ///< of damping and friction [J]
   S restitution_work{};                                     ///< of what restitution withholds [J]
-  S held_work{};                                            ///< of those who hold particles, all scripts [J]
+  S held_work{};                                            ///< of the holders of particles, all scripts [J]
   Vec<S, Dim> impulse = Vec<S, Dim>::Zero();                ///< on the momentum of free particles [N s]
-  Moment<S, Dim> angular_impulse = Moment<S, Dim>::Zero();  ///< the same of x cross J, about the origin [N m s]
+  Moment<S, Dim> angular_impulse = Moment<S, Dim>::Zero();  ///< the same for x cross J, about the origin [N m s]
   std::uint64_t events = 0;                                 ///< forces fired
 
   Account& operator+=(const Account& other) {
@@ -80,23 +81,23 @@ class ScriptBook {
  public:
   struct ScriptedVertex {
     std::uint32_t script = none;
-    double changed_at = -1;  ///< when its velocity changed last [s]
-    Vec<S, Dim> before;      ///< its velocity up to then
+    double changed_at = -1;  ///< the time of its last change of velocity [s]
+    Vec<S, Dim> before;      ///< its velocity before that
   };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   ScriptBook() = default;
-  /// `vertices`: of each vertex, or nothing: there are no scripts. `works`: by script [J].
+  /// `vertices`: by vertex; empty if there are no scripts. `works`: by script [J].
   ScriptBook(std::span<ScriptedVertex> vertices, std::span<S> works) : vertices_(vertices), works_(works) {}
 
-  /// Before a scripted vertex changes its velocity, which is `before` up to now.
+  /// Call this before a scripted vertex changes its velocity, which has been `before`.
   void turn(VertexId vertex, double t, const Vec<S, Dim>& before) {
     if (vertices_.empty()) return;
     vertices_[vertex].changed_at = t;
     vertices_[vertex].before = before;
   }
 
-  /// The mean velocity of a vertex that is held and moves with v from t on. At time 0 nothing was before.
+  /// The mean of the velocities before and after t of a held vertex that moves with v from t on. At time 0 it is v.
   Vec<S, Dim> velocity(VertexId vertex, double t, const Vec<S, Dim>& v) const {
     if (vertices_.empty() || t <= 0 || vertices_[vertex].changed_at != t) return v;
     return S(0.5) * (vertices_[vertex].before + v);
@@ -114,20 +115,20 @@ class ScriptBook {
 template <class S, int Dim>
 struct Books {
   std::array<Account<S, Dim>, force_kinds> accounts;
-  std::vector<Account<S, Dim>> contact;  ///< that of contact, by material
+  std::vector<Account<S, Dim>> contact;  ///< accounts of contact, by material
   std::vector<S> scripts;                ///< work by script [J]
 
   Account<S, Dim>& of(ForceKind kind) { return accounts[static_cast<std::size_t>(kind)]; }
   const Account<S, Dim>& of(ForceKind kind) const { return accounts[static_cast<std::size_t>(kind)]; }
 
-  /// Of all: the change of the kinetic energy.
+  /// The sum of all works: the change of the kinetic energy.
   S work() const {
     S sum{};
     for (const auto& a : accounts) sum += a.work + a.damping_work + a.restitution_work + a.held_work;
     return sum;
   }
 
-  /// Of damping, friction, restitution and scripts.
+  /// The works of damping, friction, restitution and scripts.
   S given() const {
     S sum{};
     for (const auto& a : accounts) sum += a.damping_work + a.restitution_work + a.held_work;
@@ -142,13 +143,13 @@ struct Books {
     return *this;
   }
 
-  /// Room for so many materials and scripts.
+  /// Makes room for this many materials and scripts.
   void make_room(std::size_t materials, std::size_t script_count) {
     contact.resize(std::max(contact.size(), materials));
     scripts.resize(std::max(scripts.size(), script_count));
   }
 
-  /// All contact, of what its materials did.
+  /// Sums the accounts of all materials into that of contact.
   void sum_contact() {
     of(ForceKind::contact) = {};
     for (const auto& account : contact) of(ForceKind::contact) += account;

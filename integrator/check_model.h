@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a model is one that can be run. Scenes are checked when they are read; this is for models made by hand.
+// Checks whether a model can be run. Scenes are checked when they are read; this is for models made by hand.
 #pragma once
 
 #include <cmath>

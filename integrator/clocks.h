@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// When a force fires: at the times k h, k = 1, 2, 3, ..., each the rounded product, never a sum of steps.
+// Clocks of forces: a force fires at the times k h, k = 1, 2, 3, ..., each the rounded product, never a sum of steps.
 #pragma once
 
 #include <cstdint>

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact in a run: the layers that are active, each with its clock, and the certificates that say which have to be.
+// Contact in a run: the active layers, each with its clock, and the certificates that decide which must be active.
 //
 // Notation: that of integrator/contact_settings.h, and
 //   layer     of a material: (material, l). All pairs for which it is active fire together, in the order of their keys
 //             (integrator/layer_fire.h)
-// Layer l fires at the times k h(l) of the run, whenever a pair joined it, and writes only where it acts. So a run in
-// which layers are activated when they are needed is, bit for bit, the run in which they always were (design, "What an
-// event may write").
+// Layer l fires at the times k h(l) of the run, no matter when a pair joined it, and writes only where it acts. So a
+// run that activates layers when they are needed is, bit for bit, the run in which they always were active (design,
+// "What an event may write").
 //
-// A run ends when a layer above most_layers would act: that too is a property of the motion, while how many layers
-// certificates take in advance depends on when they looked, which is not the same in a run that was resumed. Only what
-// comes past a thousand layers more before the first of them fires ends the run when that is seen.
+// A run ends when a layer above most_layers would act, which is also a property of the motion. How many layers
+// certificates activate in advance is not: it depends on when they checked, which differs in a resumed run. Only if a
+// pair needs a thousand further layers before the first of them fires does the run end at once.
 //
-// What this does not do: which pairs are near is for certificates/cells.h.
+// certificates/cells.h finds the near pairs.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@
 
 namespace noli::integrator {
 
-/// A layer that fires, for recorders that want to know (layer_fires), before each of its pairs (examined).
+/// A layer that fires, for recorders with layer_fires(), which precedes examined() for each of its pairs.
 struct Firing {
   double time, h;  ///< h: of this kick, half of the layer's step when a run begins
   std::uint16_t material;
@@ -47,7 +47,8 @@ struct Firing {
 };
 
 /// The pairs for which a layer is active, in the order of their keys. Many join and leave between two times at which
-/// the layer fires, so these are put into order together, then: n of them among N take O(N + n log n), not O(N n).
+/// the layer fires, so changes are sorted in together, when the order is needed: n changes among N pairs take O(N + n
+/// log n), not O(N n).
 class PairList {
  public:
   /// Precondition: the pair is not in the list.
@@ -63,7 +64,7 @@ class PairList {
 
   bool empty() const { return size_ == 0; }
 
-  /// By key. Stays as it is while pairs are added and removed, until it is asked for again.
+  /// The pairs, by key. The span stays as it is while pairs are added and removed, until the next call.
   std::span<const certificates::Stencil> in_order() const {
     if (!changes_.empty()) settle();
     return pairs_;
@@ -75,7 +76,7 @@ class PairList {
     bool joins;
   };
 
-  /// Of several changes of one pair the last one holds.
+  /// Applies the changes. Of several changes of one pair, the last one counts.
   void settle() const {
     std::ranges::stable_sort(changes_, {}, [](const Change& change) { return change.pair.key; });
     merged_.clear();
@@ -97,15 +98,15 @@ class PairList {
   mutable std::vector<Change> changes_;
 };
 
-/// `Certificates`: certificates::Cells, or what does the same for comparison (tests/support/every_pair.h).
+/// `Certificates`: certificates::Cells, or a replacement for comparison (tests/support/every_pair.h).
 template <int Dim, template <int, class> class Certificates = certificates::Cells>
 class Contact {
  public:
   using Scalar = double;
   using Particles = std::vector<Particle<double, Dim>>;
 
-  /// `look_steps`: of each vertex, how often it fires at least; infinity for those that nothing does. The particles
-  /// stay where they are.
+  /// `look_steps`: by vertex, the longest time between two forces on it; infinity without forces. The particles must
+  /// not move in memory.
   Contact(const ContactSettings& settings, const Mesh& mesh, Particles& particles, std::vector<double> look_steps,
           double window_length)
       : settings_(settings),
@@ -124,21 +125,21 @@ class Contact {
 
   bool started() const { return started_; }
 
-  /// Where it says what it does; nowhere, until this is called.
+  /// From now on shows its phases there.
   void show(Activity& activity) { activity_ = &activity; }
 
-  /// Since they were forgotten last.
+  /// The extremes since the last forget_extremes().
   const ContactExtremes& extremes() const { return extremes_; }
   void forget_extremes() { extremes_ = {}; }
 
-  /// Certifies where things are.
+  /// Certifies the present state.
   void start(double t) {
     started_ = true;
     const PhaseScope certifying(*activity_, Phase::certificate);
     certificates_.start(t);
   }
 
-  /// A vertex has been looked at by an event at time t.
+  /// Checks a vertex after an event at time t.
   void look(VertexId i, double t) { certificates_.look(i, t); }
 
   double next_certificate() { return certificates_.next_time(); }
@@ -149,8 +150,8 @@ class Contact {
 
   double next_layer() const { return agenda_.empty() ? never : std::get<0>(*agenda_.begin()); }
 
-  /// Fires the next layer; returns how many pairs it acted on. (How many it fired for is no property of the motion.)
-  /// Tells gravity what it strikes.
+  /// Fires the next layer; returns the number of pairs on which it acted. (The number for which it fired is not a
+  /// property of the motion.) Tells gravity which vertices it strikes.
   template <class Recorder>
   std::size_t fire_next(Recorder& record, Books<double, Dim>& books, ScriptBook<double, Dim>& scripts,
                         Falling<double, Dim>& falling) {
@@ -175,12 +176,12 @@ class Contact {
     }
   }
 
-  /// What friction remembers at a window's end.
+  /// The anchors of friction at a window's end.
   std::vector<Anchor<double>> anchors(double t) const { return layer_fire_.anchors().after(t); }
   void restore(std::span<const Anchor<double>> anchors) { layer_fire_.anchors().restore(anchors); }
 
-  /// Calls each(pair, closest points, g, r(l) times how often it counts, h(l)) for all active layers that act where
-  /// things are now.
+  /// Calls each(pair, closest points, g, r(l) times the weight of the pair, h(l)) for all active layers that act at the
+  /// present positions.
   template <class Each>
   void for_each_acting(Each&& each) const {
     const auto position = [this](VertexId v) { return particles_[v].x; };
@@ -192,15 +193,15 @@ class Contact {
     });
   }
 
-  /// Calls each(pairs, material, l) for all layers that may act: the pairs for which it is active, in the order of
-  /// their keys.
+  /// Calls each(pairs, material, l) for all layers that may act, with the pairs for which they are active, in the order
+  /// of their keys.
   template <class Each>
   void for_each_active(Each&& each) const {
     for_each_layer([&](const Layer& layer, std::uint16_t material, std::uint32_t l) {
       if (!layer.pairs.empty()) each(layer.pairs.in_order(), material, l);
     });
   }
-  /// Precondition: it is active for a pair, or was.
+  /// Precondition: the layer is or was active for a pair.
   LayerTerms terms_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].terms; }
   double step_of(std::uint16_t material, std::uint32_t l) const { return layers_[material][l - 1].clock.step; }
 
@@ -220,7 +221,7 @@ class Contact {
   double thickness(std::uint16_t material, std::uint32_t l) const {
     return layer_thickness(settings_.materials[material], settings_.schedule, l);
   }
-  /// For as long as what it returns is there.
+  /// Shows the broad phase as long as the returned object lives.
   PhaseScope in_broad_phase() const { return {*activity_, Phase::broad_phase}; }
   double look_step(VertexId i) const { return look_steps_[i]; }
   std::uint32_t least_layers() const { return settings_.least_layers; }
@@ -233,14 +234,14 @@ class Contact {
     auto& of_material = layers_[material];
     const double step = l <= of_material.size() ? of_material[l - 1].clock.step
                                                 : layer_step(settings_.materials[material], settings_.schedule, l);
-    // Steps that are too short to be counted at this time (first_after) never come.
+    // A step that is too short to be counted at this time (first_after) would never come.
     if (l > most_in_advance + settings_.most_layers || !(t < 0x1p52 * step)) throw ContactLimit(pair, t);
     while (of_material.size() < l) {
       of_material.push_back(make_layer(material, static_cast<std::uint32_t>(of_material.size() + 1)));
     }
     Layer& layer = of_material[l - 1];
     if (layer.pairs.empty()) {
-      // At t itself the layer gives nothing, being activated before it is needed.
+      // At t itself the layer gives no impulse, as it is activated before it is needed.
       layer.clock.next = std::max(layer.clock.next, first_after(t, layer.clock.step));
       agenda_.insert({layer.clock.time(), material, l});
     }
@@ -256,23 +257,23 @@ class Contact {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   static constexpr double longest_slice = 8;  ///< in windows
-  /// Layers above most_layers that a pair may have, for others to see that they would act.
+  /// The layers above most_layers that a pair may have, so that watch() sees when one would act.
   static constexpr std::uint64_t most_in_advance = 1000;
   static_assert(ContactSettings::excluded == certificates::no_material);
 
   /// A pair for which the layer fired, and which was too far apart for it to act.
   struct Clear {
-    std::size_t number;  ///< among those that it has fired for
+    std::size_t number;  ///< among the pairs for which it has fired
     double distance;     ///< [m]
   };
 
   struct Layer {
     Clock clock;
     LayerTerms terms;
-    PairList pairs;  ///< for which it is active
+    PairList pairs;  ///< the pairs for which it is active
   };
 
-  /// Calls each(layer, material, l) for all that may act.
+  /// Calls each(layer, material, l) for all layers that may act.
   template <class Each>
   void for_each_layer(Each&& each) const {
     for (std::size_t m = 0; m < layers_.size(); ++m) {
@@ -312,7 +313,7 @@ class Contact {
       watch(material, l, t);
       return 0;
     }
-    const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, whatever happens meanwhile
+    const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, despite later changes
     now.record.reserve(4 * firing.size());
     const LayerTerms terms = terms_of(material, l);
     if constexpr (requires { now.record.layer_fires(Firing{t, h, material, l, terms}); }) {
@@ -340,8 +341,8 @@ class Contact {
     return acted;
   }
 
-  /// What the layer has struck, and which pairs it is clear of: once it has fired for all of them, as one vertex is
-  /// part of many pairs.
+  /// Updates certificates for the struck vertices and clear pairs. Called after the layer has fired for all its pairs,
+  /// as a vertex is part of many pairs.
   void certify(std::span<const certificates::Stencil> fired, std::uint16_t material, std::uint32_t l, double t) {
     const PhaseScope certifying(*activity_, Phase::certificate);
     for (const VertexId i : struck_) {
@@ -353,7 +354,7 @@ class Contact {
     clear_.clear();
   }
 
-  /// Fires a layer that must not act. Throws ContactLimit if it would.
+  /// Checks a layer that must not act. Throws ContactLimit if it would.
   void watch(std::uint16_t material, std::uint32_t l, double t) {
     const auto watched = layers_[material][l - 1].pairs.in_order();
     const double eta = terms_of(material, l).thickness;
@@ -379,7 +380,7 @@ class Contact {
   std::vector<double> greatest_thicknesses_;                           ///< [group * class_count + class]
   std::set<std::tuple<double, std::uint16_t, std::uint32_t>> agenda_;  ///< of layers with pairs: when they fire next
   LayerFire<double, Dim> layer_fire_;
-  std::vector<std::uint8_t> is_struck_;  ///< by vertex: by the layer that fires now
+  std::vector<std::uint8_t> is_struck_;  ///< by vertex: struck by the layer that fires now
   std::vector<VertexId> struck_;         ///< these vertices
   std::vector<Clear> clear_;             ///< pairs of the layer that fires now
   ContactExtremes extremes_;

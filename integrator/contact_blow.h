@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A layer of contact fires for a pair: its vertices get their new velocities, the books what that took.
+// Fires a layer of contact for a pair: sets the new velocities of its vertices, and books the work.
 //
 // Notation: that of integrator/contact_impulse.h, and
 //   blow      one layer, one pair, one time
-//   course    which way the formulas went. Arithmetic of another precision may take another one
+//   course    the branches taken in the formulas. Arithmetic of another precision may take other ones
 //
-// What this does not do: it says neither when a layer fires nor for which pairs (integrator/contact.h).
+// integrator/contact.h decides when a layer fires and for which pairs.
 #pragma once
 
 #include <algorithm>
@@ -25,33 +25,33 @@
 
 namespace noli::integrator {
 
-/// What a layer does to all its pairs.
+/// The parameters of a layer, the same for all its pairs.
 struct LayerTerms {
   double thickness = 0;    ///< eta(l) [m]
   double stiffness = 0;    ///< r(l) [N/m]
   double restitution = 1;  ///< e
   double friction = 0;     ///< mu
   double anchor_life = 0;  ///< [s] (integrator/anchors.h)
-  bool drags = false;      ///< it is the material's first layer, which drags anchors
+  bool drags = false;      ///< this is the material's first layer, which drags anchors
 };
 
 struct Course {
   bool acts = false;         ///< g < 0
   bool parts = false;        ///< the closest points part, so that restitution counts
-  bool sticks = false;       ///< friction does all that it would: the slip ends, the anchor pulls
-  std::uint8_t corners = 0;  ///< bit i: vertex i has a part in the closest points
+  bool sticks = false;       ///< friction is not bounded: the slip ends, the anchor pulls
+  std::uint8_t corners = 0;  ///< bit i: vertex i has a nonzero weight in the closest points
 
   friend bool operator==(const Course&, const Course&) = default;
 };
 
-/// Where a pair is when a layer fires. It follows from positions alone, so it is the same before and after all kicks of
-/// that time.
+/// The closest points of a pair when a layer fires. They depend only on positions, so they are the same before and
+/// after all kicks of that time.
 template <class S, int Dim>
 struct Approach {
   certificates::Closest<Dim, S> closest;
   S distance;
 
-  /// `course`, and corners.
+  /// `course` with its corners filled in.
   Course with_corners(Course course) const {
     for (std::size_t i = 0; i < 4; ++i) course.corners |= static_cast<std::uint8_t>((closest.weights[i] != S(0)) << i);
     return course;
@@ -59,11 +59,11 @@ struct Approach {
 };
 
 struct Blow {
-  Course course;  ///< corners are not in it
+  Course course;  ///< without corners
   bool struck = false;
 };
 
-/// Of a pair's N vertices, what(vertex).
+/// An array of what(vertex) for the N vertices of a pair.
 template <std::size_t N, class What>
 auto each_of(const certificates::Stencil& pair, const What& what) {
   std::array<decltype(what(pair.vertices[0])), N> result;
@@ -71,7 +71,8 @@ auto each_of(const certificates::Stencil& pair, const What& what) {
   return result;
 }
 
-/// Usually an earlier pair has brought the vertex to this time and recorded that: then only its velocity changes.
+/// Gives a vertex an impulse. Usually an earlier pair has already brought the vertex to this time and recorded it; then
+/// only its velocity changes.
 template <class S, int Dim, class Recorder>
 void kick_vertex(const Kicked<S, Dim, Recorder>& now, VertexId vertex, const Vec<S, Dim>& impulse) {
   Particle<S, Dim>& p = now.particles[vertex];
@@ -89,28 +90,28 @@ template <class S, int Dim, std::size_t N>
 struct Friction {
   Impulses<Dim, S> impulses;          ///< all zero if nothing slips
   std::array<Vec<S, Dim>, N> before;  ///< velocities before the layer fired
-  bool sticks = true;                 ///< nothing bounds it
+  bool sticks = true;                 ///< it is not bounded
 };
 
-/// How a pair is struck, where it is not a contact of its own (integrator/inclusion_exclusion.h).
+/// How a pair is struck that is only a part of a contact (integrator/inclusion_exclusion.h).
 template <class S>
 struct Strength {
-  S weight = S(1);            ///< how often it counts; where that is less than 0 the layer pulls, and nothing rubs
-  std::optional<bool> parts;  ///< the contact parts, so that restitution counts; absent: if this pair does
-  S rubbing = S(1);           ///< what friction's bound is multiplied by
+  S weight = S(1);            ///< of the pair; if it is below 0 the layer pulls, without friction
+  std::optional<bool> parts;  ///< whether the contact parts, so that restitution counts; nothing: as this pair does
+  S rubbing = S(1);           ///< a factor of friction's bound
 };
 
-/// What bounds and pulls.
+/// The bound of friction, and the pull of an anchor.
 template <class S>
 struct Grip {
-  S most;                    ///< magnitude of the impulse, mu J_n [N s]
+  S most;                    ///< the greatest impulse, mu J_n [N s]
   S spring;                  ///< h r(l) [N s/m]
-  S reach;                   ///< mu |g|: how far from an anchor the spring's force is Coulomb's [m]
-  bool drags;                ///< an anchor that is further than that
+  S reach;                   ///< mu |g|: the distance from an anchor at which the spring's force is Coulomb's [m]
+  bool drags;                ///< drag an anchor that is farther than `reach`
   std::array<S, 4>& anchor;  ///< its weights
 };
 
-/// The slide from the anchor to the closest points. Drags the anchor if it is to be.
+/// The slide from the anchor to the closest points. Drags the anchor if needed.
 template <int Dim, class S>
 typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const certificates::Closest<Dim, S>& c,
                                            std::span<const Vec<S, Dim>> x, Grip<S>& grip) {
@@ -155,17 +156,17 @@ void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
   for (std::size_t i = 0; i < N; ++i) kick_vertex<S, Dim>(now, pair.vertices[i], friction.impulses[i]);
 }
 
-/// What a layer has given a pair, all in one event.
+/// The impulses that a layer has given a pair, in one event.
 template <class S, int Dim, std::size_t N>
 struct Given {
   S full;                                         ///< magnitude of the impulse of the layer's potential [N s]
-  S push;                                         ///< of it, what restitution leaves
+  S push;                                         ///< the part of it that restitution leaves
   Vec<S, Dim> normal;                             ///< impulses are its multiples, by weight
   S before;                                       ///< opening() before it
   const Friction<S, Dim, N>* friction = nullptr;  ///< if there is any
 };
 
-/// opening() of a pair as it moves now.
+/// opening() of a pair with its present velocities.
 template <std::size_t N, class S, int Dim, class Recorder>
 S opening_now(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
               const certificates::Closest<Dim, S>& closest) {
@@ -186,7 +187,7 @@ S twice_mean_opening(const Kicked<S, Dim, Recorder>& now, const certificates::St
   return S(2) * given.before + given.push * approach.distance * mobility;
 }
 
-/// Books it. The work of normal impulses needs no velocity but that at which the closest points open.
+/// Books the impulses. The work of normal impulses needs only the velocity at which the closest points open.
 template <std::size_t N, class S, int Dim, class Recorder>
 void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const Approach<S, Dim>& approach,
                const Given<S, Dim, N>& given, Account<S, Dim>& account) {
@@ -208,8 +209,8 @@ void book_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil&
   account.damping_work += S(0.5) * twice_friction;
 }
 
-/// strike_pair() of a pair of N vertices. Both are inlined: reading back a result written byte by byte just before took
-/// a tenth of the time of this function.
+/// strike_pair() for a pair of N vertices. Both are inlined: reading back a result just written byte by byte took a
+/// tenth of the time of this function.
 template <std::size_t N, class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_vertices(const Kicked<S, Dim, Recorder>& now,
                                                    const certificates::Stencil& pair, const Approach<S, Dim>& approach,
@@ -223,7 +224,7 @@ template <std::size_t N, class S, int Dim, class Recorder>
   const S before = opening_now<N>(now, pair, closest);
   blow.course.acts = true;
   blow.course.parts = strength.parts.value_or(before > S(0));
-  const std::array<double, 2> shares{1, layer.restitution};  // without a branch that no processor foresees
+  const std::array<double, 2> shares{1, layer.restitution};  // avoids a branch that processors cannot predict
   const S spring = S(h) * S(layer.stiffness) * strength.weight;
   const S push = S(-shares[blow.course.parts]) * spring * g, full = S(-1) * spring * g;
   Given<S, Dim, N> given{full, push, closest.r / distance, before};
@@ -246,8 +247,7 @@ template <std::size_t N, class S, int Dim, class Recorder>
   return blow;
 }
 
-/// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Room in the recording is the caller's
-/// business.
+/// Fires a layer for a pair, for h seconds. Throws ContactLimit at distance 0. Precondition: the recording has room.
 template <class S, int Dim, class Recorder>
 [[gnu::always_inline]] inline Blow strike_pair(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
                                                const Approach<S, Dim>& approach, const LayerTerms& layer, double h,
@@ -260,8 +260,8 @@ template <class S, int Dim, class Recorder>
   }
 }
 
-/// Calls each(vertex) for the vertices of a pair that an impulse between its closest points moves, if they are free. A
-/// vertex of weight 0 is not moved.
+/// Calls each(vertex) for the free vertices of a pair that an impulse between its closest points moves: those with a
+/// nonzero weight.
 template <class S, int Dim, class Each>
 void for_each_struck(const certificates::Stencil& pair, const certificates::Closest<Dim, S>& closest, Each&& each) {
   for (std::size_t i = 0; i < pair.size(); ++i) {
@@ -286,7 +286,7 @@ certificates::Closest<Dim, S> closest_of(const certificates::Stencil& pair, cons
   return closest;
 }
 
-/// Where a pair is whose vertices are at position(vertex).
+/// The approach of a pair whose vertices are at position(vertex).
 template <class S, int Dim, class PositionOf>
 void find_approach_of(const certificates::Stencil& pair, const PositionOf& position, Approach<S, Dim>& approach) {
   find_closest_of<S, Dim>(pair, position, approach.closest);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How near things came in a window, as far as layers of contact that acted have seen it.
+// How near features came in a window, as seen by the layers of contact that acted.
 //
-// A layer acts at its own times only, so a pair may have been nearer between them: certify/simulate/exact_gap.h says
-// how near. What is kept is a property of the motion: certificates, which decide how many layers are looked at, do not
-// change it.
+// A layer acts only at its own times, so a pair may have been nearer in between; certify/simulate/exact_gap.h decides
+// how near. The extremes are a property of the motion: they do not depend on how many layers certificates activate.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +18,12 @@ namespace noli::integrator {
 struct LayerAction {
   certificates::Stencil pair;
   double time = 0;             ///< [s]
-  double distance = 0;         ///< as it was computed [m]
+  double distance = 0;         ///< as computed by the layer [m]
   std::uint16_t material = 0;  ///< of ContactSettings::materials
   std::uint32_t layer = 0;
 };
 
-/// Of the actions of a window; of several, the first.
+/// The extreme actions of a window; the first one of several.
 struct ContactExtremes {
   std::optional<LayerAction> deepest, nearest;
 
@@ -34,8 +33,8 @@ struct ContactExtremes {
   }
 };
 
-/// A pair came so near that it would need more layers than the scene allows, or one whose steps are too short to tell
-/// one time from the next, or to no distance at all.
+/// A pair came too near: it is at distance 0, needs more layers than the scene allows, or needs a layer whose steps are
+/// too short to tell one time from the next.
 struct ContactLimit : std::runtime_error {
   ContactLimit(const certificates::Stencil& which, double when)
       : std::runtime_error("contact: a pair of features needs more layers than allowed"), pair(which), time(when) {}

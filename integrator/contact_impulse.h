@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one penalty layer does to one pair when it fires.
+// The impulses of one penalty layer on one pair when it fires.
 //
 // Notation (Harmon et al. 2009, section 3)
 //   x_i, v_i, m_i   vertices of the pair; w_i, r, d, b_k: as in certificates/closest.h
 //   g         d - eta; the layer acts if g < 0
-//   J_n       s h r(l) |g|: the impulse between the closest points, pushing apart; s = 1 while they approach, e while
-//             they part, so e is the part of the energy that comes back
-//   slide     what the parameters of the closest points change by, or their rates. Rigid motions do not change them, so
+//   J_n       s h r(l) |g|: the impulse between the closest points, pushing them apart; s = 1 while they approach, e
+//             while they part, so e is the share of the energy that comes back
+//   slide     a change of the parameters of the closest points, or its rate. Rigid motions do not change them, so
 //             forces along their gradients change neither momentum nor angular momentum (see Sliding)
-//   friction  impulse z along slides, of magnitude mu J_n at most: what stops the slip, and h r(l) times the slide from
-//             the pair's anchor (integrator/anchors.h) back to it
+//   friction  impulse z along slides, of magnitude mu J_n at most: it stops the slip, and pulls back to the pair's
+//             anchor (integrator/anchors.h) with h r(l) times the slide from there
 //
 // S is double; in audits also multiprecision numbers.
-//
-// What this does not do: it changes no velocity, and no one's clock.
 #pragma once
 
 #include <array>
@@ -44,8 +42,8 @@ Impulses<Dim, S> normal_impulses(const certificates::Closest<Dim, S>& c, const S
   return impulses;
 }
 
-/// d d(d)/dt of a pair of so many vertices: negative while the closest points approach. `velocity`: of vertex i of the
-/// pair.
+/// d d(d)/dt of a pair of `size` vertices: negative while the closest points approach. `velocity(i)`: of vertex i of
+/// the pair.
 template <int Dim, class S, class Velocity>
 S opening(const certificates::Closest<Dim, S>& c, std::size_t size, const Velocity& velocity) {
   S sum(0);
@@ -53,13 +51,13 @@ S opening(const certificates::Closest<Dim, S>& c, std::size_t size, const Veloci
   return sum;
 }
 
-/// How the closest points of a pair can slide along its features, at most in two directions.
+/// The slides of the closest points of a pair along its features, in at most two directions.
 template <int Dim, class S>
 class Sliding {
  public:
   using Slide = std::array<S, 2>;  ///< by parameter
 
-  /// c has to stay where it is. Precondition: x are the pair's vertices.
+  /// c must outlive this. Precondition: x are the positions of the pair's vertices.
   Sliding(const certificates::Closest<Dim, S>& c, std::span<const Vec<S, Dim>> x) : c_(c), size_(x.size()) {
     for (std::size_t k = 0; k < c.slide_count; ++k) b_[k] = x[c.slides[k].to] - x[c.slides[k].from];
     if (c.slide_count == 0) return;
@@ -70,7 +68,7 @@ class Sliding {
     det_ = aa_ * bb_ - ab_ * ab_;
   }
 
-  /// Whether anything can slide, and the parameters tell how.
+  /// Whether the closest points can slide, and solve() works.
   bool possible() const { return c_.slide_count == 1 || (c_.slide_count == 2 && det_ > S(0)); }
 
   /// The slide that moves the closest points by, or at a rate of, `tangent` along the b_k. Precondition: possible().
@@ -79,7 +77,7 @@ class Sliding {
     return {(bb_ * tangent[0] - ab_ * tangent[1]) / det_, (aa_ * tangent[1] - ab_ * tangent[0]) / det_};
   }
 
-  /// b_k . u + (db_k/dt) . r, u = sum w_i v_i: what solve() makes the parameters' rates of.
+  /// b_k . u + (db_k/dt) . r, u = sum w_i v_i: the argument from which solve() computes the parameters' rates.
   Slide rates(std::span<const Vec<S, Dim>> v) const {
     Vec<S, Dim> u = c_.weights[0] * v[0];
     for (std::size_t i = 1; i < size_; ++i) u += c_.weights[i] * v[i];
@@ -91,7 +89,7 @@ class Sliding {
     return result;
   }
 
-  /// b_k . (sum (weights_i - w_i) x_i): the same of the way from points of other weights to the closest ones.
+  /// b_k . (sum (weights_i - w_i) x_i): the argument for the slide from points of other weights to the closest points.
   Slide way_from(const std::array<S, 4>& weights, std::span<const Vec<S, Dim>> x) const {
     Vec<S, Dim> way = (weights[0] - c_.weights[0]) * x[0];
     for (std::size_t i = 1; i < size_; ++i) way += (weights[i] - c_.weights[i]) * x[i];
@@ -108,7 +106,7 @@ class Sliding {
   }
 
   /// The impulses on the vertices whose work on every motion is -z . rate: along gradients of functions that rigid
-  /// motions leave alone.
+  /// motions do not change.
   Impulses<Dim, S> against(const Slide& z) const {
     Impulses<Dim, S> impulses;
     for (auto& impulse : impulses) impulse.setZero();
@@ -130,9 +128,9 @@ class Sliding {
 /// The slip of a pair.
 template <int Dim, class S = double>
 struct Slip {
-  S speed = S(0);              ///< [m/s]; 0: nothing slips, or nothing can
+  S speed = S(0);              ///< [m/s]; 0: there is no slip, or none is possible
   std::array<S, 2> rate{};     ///< of the parameters
-  Impulses<Dim, S> against{};  ///< impulse on each vertex, if the friction's is 1
+  Impulses<Dim, S> against{};  ///< the impulse on each vertex for a friction impulse of 1
 };
 
 template <int Dim, class S>
@@ -149,7 +147,7 @@ Slip<Dim, S> slip(const Sliding<Dim, S>& sliding, std::span<const Vec<S, Dim>> v
   return result;
 }
 
-/// How much of the slip's speed an impulse of magnitude 1 takes: the friction that stops it is speed / this.
+/// How much of the slip's speed a friction impulse of magnitude 1 takes: speed / this stops the slip.
 template <int Dim, class S>
 S yielding(const Slip<Dim, S>& slip, std::span<const S> inverse_mass) {
   S sum(0);

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What two things do to each other when they come near: penalty layers nested without end (Harmon et al. 2009,
-// section 3).
+// Settings of contact: an infinite sequence of nested penalty layers (Harmon et al. 2009, section 3).
 //
 // Notation
 //   l         number of a layer, 1, 2, ...
 //   eta(l)    thickness: the layer acts on a pair of features that is nearer than this [m]; eta(1) l^-a
 //   r(l)      stiffness of the layer [N/m]; r(1) l^b
 //   h(l)      step of the layer [s]; h(1) l^-c; it fires at the times k h(l)
-//   e         part of the energy of an approach that comes back, 0 to 1
+//   e         the share of the energy of an approach that comes back, 0 to 1
 //   mu        Coulomb's coefficient of friction
 //
-// That no speed gets through needs sum r(l) eta(l)^2 = infinity, that is b - 2 a >= -1, and that no layer is passed
-// between two of its own kicks needs h(l) / eta(l) -> 0, that is c > a.
-//
-// What this does not do: it holds no state of a run.
+// The layers stop any speed if sum r(l) eta(l)^2 = infinity, that is b - 2 a >= -1. No layer is passed between two of
+// its own kicks if h(l) / eta(l) -> 0, that is c > a.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +24,7 @@
 
 namespace noli::integrator {
 
-/// Exponents a, b, c in quarters, so that two square roots do for powers and all machines agree on the bits.
+/// Exponents a, b, c in quarters, so that powers take two square roots, with the same bits on all machines.
 struct LayerSchedule {
   int thickness_quarters = 1;  ///< 4 a; the papers' schedule is l^(-1/4), l^3, l^(-3/2)
   int stiffness_quarters = 12;
@@ -59,30 +56,30 @@ struct ContactMaterial {
   friend bool operator==(const ContactMaterial&, const ContactMaterial&) = default;
 };
 
-/// Contact in a scene: which material two features have, if they are not excluded from contact. It follows from their
-/// groups, which are bodies, and from their classes, which tell within a body what is light and small and needs short
-/// steps from what does not.
+/// Contact in a scene: the material of two features, if they are not excluded from contact. It depends on their groups,
+/// which are bodies, and on their classes: within a body, light and small parts that need short steps have a class of
+/// their own.
 struct ContactSettings {
   static constexpr std::uint16_t excluded = 0xffff;
 
   LayerSchedule schedule;
   std::uint32_t most_layers = 1000;  ///< a pair that needs more ends the run
-  std::uint32_t least_layers = 0;    ///< of each pair that is followed; they change nothing but the time it takes
-  bool inclusion_exclusion = false;  ///< cells side by side count once (integrator/inclusion_exclusion.h)
+  std::uint32_t least_layers = 0;    ///< of each near pair; they change only the run time
+  bool inclusion_exclusion = false;  ///< adjacent cells count once (integrator/inclusion_exclusion.h)
   std::vector<ContactMaterial> materials;
   std::vector<std::uint16_t> groups;  ///< of each vertex: its group, 0, 1, ..., group_count - 1
   std::uint16_t group_count = 1;
-  std::vector<std::uint8_t> classes;  ///< of each vertex: its class, 0, 1, ..., class_count - 1; empty: all are of one
+  std::vector<std::uint8_t> classes;  ///< of each vertex: its class, 0, 1, ..., class_count - 1; empty: all are 0
   std::uint16_t class_count = 1;
-  /// [((g * group_count + h) * class_count + a) * class_count + b]: of groups g and h, classes a and b, symmetric; or
-  /// `excluded`, then for all classes.
+  /// [((g * group_count + h) * class_count + a) * class_count + b]: for groups g and h, classes a and b, symmetric; or
+  /// `excluded`, then for all classes of the groups.
   std::vector<std::uint16_t> material_of;
 
   std::uint8_t class_of(VertexId v) const { return classes.empty() ? 0 : classes[v]; }
   std::size_t place(std::size_t g, std::size_t h, std::size_t a, std::size_t b) const {
     return ((g * group_count + h) * class_count + a) * class_count + b;
   }
-  /// Of two features. The vertices of one are of one group; its class is the greatest of theirs.
+  /// The material of two features. All vertices of a feature have one group; its class is the greatest of theirs.
   std::uint16_t material(std::span<const VertexId> first, std::span<const VertexId> second) const {
     return material_of[place(groups[first.front()], groups[second.front()], feature_class(first),
                              feature_class(second))];
@@ -96,8 +93,8 @@ struct ContactSettings {
   }
 };
 
-/// Of groups and classes, [g * class_count + a]: the largest eta(1) of pairs of a feature of group g and of class a or
-/// above, which are the features that a vertex of class a may be part of.
+/// [g * class_count + a]: the largest eta(1) of pairs with a feature of group g and of class a or above: the features
+/// of which a vertex of class a may be part.
 inline std::vector<double> greatest_thicknesses(const ContactSettings& s) {
   const std::size_t classes = s.class_count, all = s.group_count * classes;
   std::vector<double> greatest(all, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The forces of a run by kind, and the steps they have.
+// The forces of a run by kind, and their steps.
 //
 // Notation
 //   division  all forces of one kind, in the order of their numbers
@@ -18,7 +18,7 @@
 
 namespace noli::integrator {
 
-/// One group of forces that fire together; with clocks of their own, one for each kind and step.
+/// A group of forces that fire together; if forces have clocks of their own, the forces of one kind and step.
 struct StepGroup {
   ForceKind kind;
   double step;
@@ -28,7 +28,7 @@ struct StepGroup {
 template <class F>
 struct Division {
   ForceList<F> list;
-  bool damped = false;  ///< some of them are; then all go the way of damped ones
+  bool damped = false;  ///< some are damped; then all are fired as damped ones
 };
 
 /// Calls each(division) for all divisions, in the order of kinds.
@@ -37,7 +37,7 @@ void for_each_division(const Divisions& divisions, Each&& each) {
   std::apply([&](const auto&... division) { (each(division), ...); }, divisions);
 }
 
-/// The shortest step of the forces on each vertex; infinity without forces, and where is_held(vertex).
+/// The shortest step of the forces on each vertex; infinity without forces, or if is_held(vertex).
 template <class Divisions, class IsHeld>
 std::vector<double> shortest_steps(const Divisions& divisions, std::size_t vertex_count, const IsHeld& is_held) {
   std::vector<double> steps(vertex_count, std::numeric_limits<double>::infinity());

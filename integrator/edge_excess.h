@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pair of edges adds to what vertices and faces already do. An edge that crosses another one above a flat mesh
-// is no nearer to it than its ends are, or than those of the other one; all that its own push would do is to make
-// bumps. On a ridge it is nearer, and nothing else keeps it away.
+// The potential that a pair of edges adds to those of vertices and faces. If an edge crosses another one above a flat
+// mesh, the edges are no nearer to each other than their ends are to the mesh, and a push of their own would only make
+// bumps. On a ridge the edges are nearer, and nothing else keeps them apart.
 //
 // Notation
 //   b       the potential of the layer between the edges: r (d - eta)^2 / 2 if d < eta, else 0
 //   B       the sum of the layer's potentials between their four ends and faces, each by inclusion and exclusion
 //           (integrator/inclusion_exclusion.h)
 //   x       B / b
-//   excess  b (1 - x)^2 if x < 1, else 0: what the layer has as its potential for the pair. Its derivatives are
-//           continuous where those of b and B are; it is b where no end is near anything, and 0 where an end is as near
-//           as the edges are
-// It is homogeneous in the potentials that it is made of, so it is their sum, each times its derivative by it: 1 - x^2
-// for b, -2 (1 - x) for those of the ends. These are the weights of the sites. It is never less than 0, and grows
-// without end where the edges meet and no end does.
+//   excess  b (1 - x)^2 if x < 1, else 0: the layer's potential for the pair. Its derivatives are continuous where
+//           those of b and B are. It is b if no end is near anything, and 0 if an end is as near as the edges are
+// The excess is homogeneous in the potentials b and those of the ends. So it is the sum of these, each times the
+// derivative of the excess by it: 1 - x^2 for b, -2 (1 - x) for those of the ends. These are the weights of the sites.
+// The excess is never below 0, and grows without bound where the edges meet and their ends do not.
 //
-// Faces count whose pairs with an end are of the same material, as they fire at the same times; so nothing is pulled
-// that the same layer does not push. An end may be near faces that have nothing to do with the other edge; then less is
-// left for the pair, until b is greater than all of that.
+// Only faces whose pairs with an end have the same material count, as they fire at the same times; so a layer pulls
+// only what it also pushes. An end may be near faces that have nothing to do with the other edge; then the pair gets
+// less, until b is greater than all of their potentials.
 //
 // S is double; in audits also multiprecision numbers.
 #pragma once
@@ -43,7 +42,7 @@ class SitesOfVertices {
     sites_.clear();
   }
 
-  /// Precondition: sites of a vertex that is greater than all before.
+  /// Precondition: these are sites of a vertex greater than all before.
   void add(std::span<const SiteOfContact<S, Dim>> sites, const S& thickness) {
     OfVertex& of = vertices_.emplace_back(OfVertex{sites.front().pair.vertices[0], sites_.size(), 0, S(0)});
     for (const SiteOfContact<S, Dim>& site : sites) {
@@ -53,7 +52,7 @@ class SitesOfVertices {
     of.end = sites_.size();
   }
 
-  /// The sum of the potentials of a layer of stiffness 1.
+  /// The sum of the potentials at a vertex, for a layer of stiffness 1.
   S potential(VertexId v) const {
     const OfVertex* of = find(v);
     return of == nullptr ? S(0) : of->potential;
@@ -80,7 +79,7 @@ class SitesOfVertices {
   std::vector<SiteOfContact<S, Dim>> sites_;
 };
 
-/// Puts the sites of a pair of edges that the layer acts on in place of what `result` has; none if there is no excess.
+/// Replaces `result` by the sites of a pair of edges on which the layer acts; empty if there is no excess.
 template <class S, int Dim>
 void find_excess(const SiteOfContact<S, Dim>& edges, const S& thickness, const SitesOfVertices<S, Dim>& known,
                  std::vector<SiteOfContact<S, Dim>>& result) {

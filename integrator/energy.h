@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Energies and momenta of a simulation at a window's end.
+// Computes energies and momenta of a simulation at a window's end.
 //
 // Notation
 //   v_mean   the velocity half way through the kicks that act at this time: v less half of each. Forces whose clocks do
-//            not strike at the window's end have none; with grouped steps all strike. Computed, never written
+//            not strike at the window's end have none; with grouped steps all strike. It is computed, never written
 //
-// Velocities of leapfrog are those of half a step later; v_mean is the one of second order at this time (Harmon et al.
-// 2009 leave it open; see also Hairer, Lubich, Wanner, "Geometric numerical integration illustrated by the
-// Stormer-Verlet method", 2003, section 1.4).
+// Velocities of leapfrog are those of half a step later; v_mean is of second order at this time (Harmon et al. 2009
+// leave it open; see also Hairer, Lubich, Wanner, "Geometric numerical integration illustrated by the Stormer-Verlet
+// method", 2003, section 1.4).
 //
-// What damping, friction and restitution have taken up to this time is in v_mean in full, as it is in the books. The
+// v_mean includes everything that damping, friction and restitution have taken up to this time, like the books. The
 // work of scripts is booked for whole kicks; the half of it that is still to come is held_ahead.
 #pragma once
 

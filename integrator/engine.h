@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The inside of a Simulation: particles, clocks and the loop over events.
+// The implementation of a Simulation: particles, clocks and the loop over events.
 //
 // Notation: that of integrator/simulation.h and integrator/divisions.h, and
-//   slot      what fires many forces in a row: a group of a division, or gravity on the vertices of one step
-//   carried   of a vertex: gravity acts on it when the force of its shortest step does
+//   slot      many forces that fire in a row: a group of a division, or gravity on the vertices of one step
+//   carried   of a vertex: gravity acts on it together with the force of its shortest step
 //
-// With clocks of their own, forces are in OwnClocks, and gravity has slots for vertices only that are not carried. A
-// division that is empty has no slot and no event, so what a scene does not have costs nothing.
+// If forces have clocks of their own, they are in OwnClocks, and gravity has slots only for vertices that are not
+// carried. An empty division has no slot and no event, so features that a scene does not use cost nothing.
 #pragma once
 
 #include <array>
@@ -31,12 +31,12 @@
 namespace noli::integrator {
 
 namespace detail {
-/// Looks for what is not finite after each force.
+/// Makes the engine look for NaNs and infinities after each force.
 struct Watch : BreakpointCount {};
 }  // namespace detail
 
-/// `Touching` does in a run of other numbers what Contact does (audit/numerics/replayed_contact.h); void: it is
-/// Contact. If its numbers are not S, models with contact are refused.
+/// `Touching` replaces Contact in a run with other numbers (audit/numerics/replayed_contact.h); void: Contact. If its
+/// numbers are not S, models with contact are refused.
 template <class S, int Dim, class Touching>
 class Engine {
  public:
@@ -57,7 +57,7 @@ class Engine {
     make_contact(model);
   }
 
-  /// The state of all clocks follows from the time.
+  /// Restores a snapshot. The state of all clocks follows from its time.
   void resume(const Snapshot<S, Dim>& snapshot) {
     windows_ = snapshot.windows;
     time_ = snapshot.time;
@@ -104,8 +104,8 @@ class Engine {
     if (contact_) contact_->show(activity);
   }
 
-  /// False when `stop`, which is asked now and then, said so: then the state is one between two events of the window.
-  /// Books what has happened, also when it throws ContactLimit.
+  /// False if `stop`, which is polled, returned true: the state is then between two events of the window. Closes the
+  /// books also when it throws ContactLimit.
   template <class Recorder, class Stop>
   bool run_window(Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     double end = window_end_after(time_);
@@ -130,7 +130,7 @@ class Engine {
     return true;
   }
 
-  /// Groups and, with clocks of their own, forces that have the same step.
+  /// The groups; if forces have clocks of their own, the sets of forces with the same step.
   std::vector<StepGroup> groups() const {
     std::vector<StepGroup> result;
     for (const Group& slot : slots_) {
@@ -149,7 +149,7 @@ class Engine {
   }
 
  private:
-  static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< a millisecond, about
+  static constexpr std::uint64_t events_between_questions = 1 << 14;  ///< about a millisecond
   static constexpr int most_rows = 256;
   static constexpr std::size_t kinds = std::tuple_size_v<Divisions>;
   static constexpr bool has_contact = std::is_same_v<S, typename ContactType::Scalar>;
@@ -245,7 +245,7 @@ class Engine {
                           [this](VertexId v) { return particles_[v].inverse_mass == S(0); });
   }
 
-  /// The shortest step of all that acts on each vertex.
+  /// The shortest step of everything that acts on each vertex.
   std::vector<double> look_steps() const { return gravity_.empty() ? steps_of_forces() : gravity_.steps().steps; }
 
   // --- The loop ------------------------------------------------------------------------------------------------------
@@ -255,7 +255,7 @@ class Engine {
     return {particles_, record, t, &script_book_};
   }
 
-  /// Up to `end`, which becomes an earlier time when breakpoints become too many. False when it was stopped.
+  /// Runs events up to `end`, which becomes an earlier time if breakpoints become too many. False if it was stopped.
   template <class Recorder, class Stop>
   bool run_events(double& end, Recorder& record, Books<S, Dim>& books, const Stop& stop) {
     if (windows_ == 0) start(record, books);
@@ -285,7 +285,7 @@ class Engine {
     for_each_division([&](auto& division) { start_own(now, division, books); });
   }
 
-  /// Certificates begin with what is there; layers that act at time 0 do half of what they do later.
+  /// Certifies the present state. At time 0, fires half kicks of the layers that act.
   template <class Recorder>
   void start_contact(Recorder& record, Books<S, Dim>& books) {
     if constexpr (has_contact) {
@@ -307,9 +307,9 @@ class Engine {
     }
   }
 
-  /// The next event, or the next few. False when there is none up to `end`. Of events of one time, breakpoints of
-  /// scripts come first, then certificates, slots, gravity on what is struck, forces with clocks of their own, and
-  /// layers of contact.
+  /// Runs the next event, or the next few. False if there is none up to `end`. Events at one time have this order:
+  /// breakpoints of scripts, certificates, slots, gravity on struck vertices, forces with clocks of their own, layers
+  /// of contact.
   template <class Recorder>
   bool run_next(double end, Recorder& record, Books<S, Dim>& books) {
     if (due_ == nullptr) due_ = next_slot();
@@ -340,12 +340,12 @@ class Engine {
     return true;
   }
 
-  /// Whether something of contact happens before t.
+  /// Whether an event of contact comes before t.
   bool contact_before(double t) const {
     return contact_ && (contact_->next_certificate() < t || contact_->next_layer() < t);
   }
 
-  /// The next event of contact, if it is up to `end` and nothing else comes before it.
+  /// Runs the next event of contact, if it is up to `end` and nothing else comes before it.
   template <class Recorder>
   bool run_contact(double end, double force_time, Recorder& record, Books<S, Dim>& books) {
     if constexpr (has_contact) {
@@ -371,7 +371,7 @@ class Engine {
     }
   }
 
-  /// The slot that fires next; of several, the first.
+  /// The slot that fires next; the first one of several.
   Group* next_slot() {
     Group* best = nullptr;
     double time = std::numeric_limits<double>::infinity();
@@ -404,16 +404,16 @@ class Engine {
     for_each_division(fire_if);
   }
 
-  /// Whether the group that fires at t is the last one of this time; at time 0, where all do, it is not said.
+  /// Whether the group that fires at t is the last one at this time; always false at time 0, when all fire.
   bool last_of(double t) const { return t > 0 && due_->clock.time() != t; }
 
-  /// Forces with clocks of their own, up to `end` and before `other`; some rows of them.
+  /// Runs some rows of forces with clocks of their own, up to `end` and before `other`.
   template <class Recorder>
   void run_own(double end, double other, Recorder& record, Books<S, Dim>& books) {
-    constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // asks after each force
+    constexpr bool watched = std::is_same_v<Recorder, detail::Watch>;  // it looks after each force
     const auto is_due = [&] { return own_.next_time() <= end && own_.next_time() < other; };
     const auto prefetch = [this](VertexId v) { __builtin_prefetch(&particles_[v], 1); };
-    // What certificates see must be of one time, and so is the breakpoint that ends a window early.
+    // Certificates must see all vertices at one time, and a breakpoint that ends a window early must be the last.
     const bool alone = watched || contact_ || nearly_full(record);
     for (int rows = 0; rows < (alone ? 1 : most_rows) && is_due(); ++rows) {
       own_.take_row(alone ? 1 : own_.longest_row, is_due, prefetch);
@@ -448,8 +448,8 @@ class Engine {
     look(now, group.vertices);
   }
 
-  /// Flattened, like fire_single_as: what is called for each force is a few dozen operations on numbers that are best
-  /// left in registers. So is the account.
+  /// Flattened, like fire_single_as: each force takes a few dozen operations on numbers that should stay in registers,
+  /// and so should the account.
   template <bool Damped, class Recorder, class F>
   [[gnu::flatten]] void fire_group_as(const Now<Recorder>& now, const Division<F>& division, const Group& group,
                                       const S& h, Account<S, Dim>& account) {
@@ -497,8 +497,8 @@ class Engine {
 
   // --- Gravity -------------------------------------------------------------------------------------------------------
 
-  /// What is carried, is looked at when its forces have fired, which they do at the same time. (A certificate of this
-  /// time may come between: it sees where things are and how they move now.)
+  /// Certificates check carried vertices after their forces have fired, at the same time. (A certificate of this time
+  /// may come in between: it sees the present positions and velocities.)
   template <class Recorder>
   void fall_slot(const Now<Recorder>& now, const Group& slot, Books<S, Dim>& books) {
     fall(books, [&](Account<S, Dim>& account) { gravity_.fire(now, slot, last_of(now.t), instant_, account); });
@@ -526,7 +526,7 @@ class Engine {
     look(now, moved);
   }
 
-  /// Counts what `fire(account)` books.
+  /// Counts the events that `fire(account)` books.
   template <class Fire>
   void fall(Books<S, Dim>& books, const Fire& fire) {
     const PhaseScope kicking(*activity_, Phase::kick);
@@ -580,19 +580,19 @@ class Engine {
   Timeline<S, Dim> timeline_;
   std::vector<S> masses_;
   std::vector<Particle<S, Dim>> particles_;
-  std::vector<typename ScriptBook<S, Dim>::ScriptedVertex> scripted_;  ///< by vertex; none without scripts
+  std::vector<typename ScriptBook<S, Dim>::ScriptedVertex> scripted_;  ///< by vertex; empty without scripts
   std::size_t material_count_ = 0, script_count_ = 0;
   ScriptBook<S, Dim> script_book_;  ///< of the window that runs
   Instant<S, Dim> instant_;         ///< of the groups that strike now
   std::vector<VertexId> all_;       ///< vertices
   GravityEvents<S, Dim> gravity_;
-  std::vector<Here<S, Dim>> here_;  ///< for kick_all; means nothing between
+  std::vector<Here<S, Dim>> here_;  ///< for kick_all; meaningless between calls
   Divisions divisions_;
   std::vector<Group> slots_;
-  Group* due_ = nullptr;  ///< that fires next, if it is known
+  Group* due_ = nullptr;  ///< the slot that fires next, if known
   OwnClocks<kinds> own_;
   std::unique_ptr<ContactType> contact_;  ///< of the particles above; nothing in scenes without contact
-  S contact_at_start_{};                  ///< its potential at time 0 [J], when that has been run from
+  S contact_at_start_{};                  ///< its potential at time 0 [J], once the run has begun there
   std::uint64_t windows_ = 0;
   double time_ = 0;  ///< the last window's end [s]
   std::uint64_t events_ = 0;

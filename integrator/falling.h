@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gravity, which has no clock of its own where it can do without: it acts on a vertex when its forces do.
+// Gravity. It acts on a vertex together with the vertex's forces, and has a clock of its own only if there are none.
 //
 // Notation
 //   h      step of gravity at a vertex: the shortest step of the forces on it, but at most gravity's own step
 //   h(1)   step of the first layer of a material of contact
-//   since  when gravity acted last on a vertex
-//   until  when it is expected to act again: at the next of the times k h, at the window's end, or, for as long as
-//          contact strikes the vertex and if h(1) is less than h, at the next of the times k h(1), whichever is first
+//   since  the last time at which gravity acted on a vertex
+//   until  the time at which it is expected to act again, the first of: the next time k h; the window's end; and, as
+//          long as contact strikes the vertex and if h(1) is less than h, the next time k h(1)
 //   lead   (until - since) / 2: from `since` on a vertex has the velocity of the time since + lead, with which it is on
 //          its parabola at `until`
 //
-// So an event at t is a kick of g (t - since - lead + lead'), lead' being that from t on: half of the step before and
-// half of the one to come. With equal steps that is leapfrog; with any others too, what falls freely is on its parabola
-// whenever gravity acts as it was expected to.
+// So an event at t is a kick of g (t - since - lead + lead'), lead' being the lead from t on: half of the previous step
+// and half of the next. With equal steps this is leapfrog. With any steps, a freely falling vertex is on its parabola
+// whenever gravity acts as expected.
 //
-// A first impulse comes when it likes, and cuts a step of p to s: the vertex is then g s (p - s) / 2 short of its
-// parabola, and has lost m g^2 s (p - s) / 2, that is m g^2 h^2 / 12 on average. The books have it under what finite
-// steps do. While impulses follow, steps are as they were expected. (Were gravity to act with each impulse, all steps
-// would be cut, all the same way: a ball that bounces with the speed v would win m v g h(1) / 2 each time.)
+// A first impulse may come at any time, and cuts a step of p to s. The vertex is then g s (p - s) / 2 short of its
+// parabola, and has lost m g^2 s (p - s) / 2, that is m g^2 h^2 / 12 on average. The books count it as an effect of
+// finite steps. While impulses follow, steps are as expected. (If gravity acted with each impulse, all steps would be
+// cut in the same direction: a ball that bounces with speed v would gain m v g h(1) / 2 each time.)
 //
-// Steps depend on the motion alone: on impulses, which are the motion's, not on which layers are active; so in numbers
-// of other precisions too they follow from each run's own impulses. At a window's end gravity acts on all and forgets
-// who was struck, so what it knows follows from the time.
+// Steps depend only on the motion: on its impulses, not on which layers are active. So in numbers of other precisions
+// they follow from each run's own impulses. At a window's end gravity acts on all vertices and forgets which were
+// struck, so its state follows from the time.
 //
-// What this does not do: it knows of no certificates; who changes velocities has them looked at.
+// Callers must have certificates check the vertices whose velocities change.
 #pragma once
 
 #include <algorithm>
@@ -44,10 +44,10 @@ namespace noli::integrator {
 template <class S, int Dim>
 class Falling {
  public:
-  /// Nothing falls.
+  /// Without gravity.
   Falling() = default;
 
-  /// `masses`, `steps`: of all vertices, [kg] and h; infinity for what does not fall. They stay where they are.
+  /// `masses`, `steps`: by vertex, [kg] and h; infinity for vertices that do not fall. Both must outlive this.
   /// `layer_steps`: h(1) of each material.
   Falling(const Vec<S, Dim>& acceleration, std::span<const S> masses, std::span<const double> steps,
           const std::vector<double>& layer_steps)
@@ -59,10 +59,10 @@ class Falling {
   bool empty() const { return falls_.empty(); }
   bool falls(VertexId i) const { return steps_[i] < never; }
   const Vec<S, Dim>& acceleration() const { return acceleration_; }
-  /// Precondition: gravity has acted on it at this time, or never.
+  /// Precondition: gravity has acted on the vertex at this time, or never.
   double lead(VertexId i) const { return 0.5 * (falls_[i].until - falls_[i].since); }
 
-  /// A window that is to end then begins. Who was struck is forgotten.
+  /// Begins a window that is expected to end at `end`. Forgets which vertices were struck.
   void begin_window(double end) {
     window_end_ = end;
     for (Struck& struck : struck_) struck.vertices.clear();
@@ -73,7 +73,7 @@ class Falling {
     next_struck_ = never;
   }
 
-  /// As it is at time t > 0 when a window begins.
+  /// Restores the state at time t > 0 at which a window begins.
   void resume(double t) {
     for (VertexId i = 0; i < falls_.size(); ++i) {
       falls_[i] = {t, t, first_own(i, t), never, false};
@@ -81,13 +81,13 @@ class Falling {
     }
   }
 
-  /// Acts on a vertex, if it falls, and books it alone. Says whether the velocity has changed.
+  /// Acts on a vertex, if it falls, as an event of its own. Returns whether the velocity has changed.
   template <class Recorder>
   bool act(const Kicked<S, Dim, Recorder>& now, VertexId i, Account<S, Dim>& account) {
     return falls(i) && act_for(advance(falls_[i], now.t), now, i, account);
   }
 
-  /// The same at one of the times k h; the next one is `next`. Precondition: it falls.
+  /// The same at one of the times k h; the next one is `next`. Precondition: the vertex falls.
   template <class Recorder>
   bool act_at_own(const Kicked<S, Dim, Recorder>& now, VertexId i, double next, Account<S, Dim>& account) {
     falls_[i].own = next;
@@ -101,11 +101,11 @@ class Falling {
     await(i, struck_[material], t);
   }
 
-  /// When gravity acts next on what is struck.
+  /// The next time at which gravity acts on struck vertices.
   double next_struck() const { return next_struck_; }
 
-  /// Calls each(vertex) for those on which it is to act then. What was struck since it did that last, is expected again
-  /// at the next time.
+  /// Calls each(vertex) for the vertices on which it acts at next_struck(). Vertices struck since the last time are
+  /// expected again at the next time.
   template <class Each>
   void take_struck(const Each& each) {
     const double t = next_struck_;
@@ -134,14 +134,14 @@ class Falling {
   struct Fall {
     double since = 0, until = 0;
     double own = never;     ///< the next of the times k h
-    double struck = never;  ///< the next of the times k h(1), where it is expected because of impulses
+    double struck = never;  ///< the next of the times k h(1), if it is expected because of impulses
     bool is_struck = false;
   };
 
-  /// Those that one material strikes, and the next time of its first layer.
+  /// The vertices that one material strikes, and the next time of its first layer.
   struct Struck {
     Clock clock;
-    std::vector<VertexId> vertices;  ///< some of them are not expected any more
+    std::vector<VertexId> vertices;  ///< includes some that are not expected any more
   };
 
   double first_own(VertexId i, double t) const {
@@ -153,7 +153,7 @@ class Falling {
     return window_end_ > t ? std::min(next, window_end_) : next;
   }
 
-  /// Of an event at time t. Returns how long the kick is [s].
+  /// Advances a vertex to an event at time t. Returns the length of the kick [s].
   S advance(Fall& fall, double t) const {
     const S lead = S(0.5) * (S(fall.until) - S(fall.since)), elapsed = S(t) - S(fall.since);
     fall.since = t;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a force is.
+// The concept of an elastic force.
 //
 // Notation
 //   V          the potential of one force, a function of the positions of its N vertices
-//   measure    s_j: what the potential depends on, unchanged by rigid motions (a length, a strain, an angle);
-//              V = V(s_1, ..., s_M)
+//   measure    s_j: an argument of the potential, unchanged by rigid motions (a length, a strain, an angle); V = V(s_1,
+//              ..., s_M)
 //
 // A force is a small value type. Asynchronous Contact Mechanics (Harmon et al. 2009, section 3) gives every force a
-// clock of its own; clocks are not here but in integrator/clocks.h, so that forces of one clock can be fired in a row.
+// clock of its own. Clocks are separate (integrator/clocks.h), so that forces with one clock can be fired in a row.
 //
-// What this does not do: contact. Its layers act on pairs that come and go (integrator/contact.h).
+// Contact is not a force in this sense: its layers act on pairs that come and go (integrator/contact.h).
 #pragma once
 
 #include <concepts>
@@ -25,7 +25,7 @@ using noli::force_kinds;
 using noli::ForceKind;
 
 /// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
-/// that of space.
+/// the dimension of space.
 ///   f.vertices         std::array<VertexId, N>: different vertices, in the order of VertexVectors
 ///   f.gradient(x)      dV/dx_i for each vertex [N]: the force is its negative
 ///   f.energy(x)        V(x) [J]

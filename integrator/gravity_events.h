@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The events of gravity in a run, and what they book.
+// Runs the events of gravity, and books them.
 //
-// Notation: that of integrator/falling.h and integrator/gravity_steps.h. A call returns the vertices whose velocities
-// it changed only where nobody else looks at them at that time.
+// Notation: that of integrator/falling.h and integrator/gravity_steps.h. A function returns the vertices whose
+// velocities it changed only if no other event at that time has certificates check them.
 //
-// What this does not do: it keeps no order of events (integrator/engine.h does).
+// integrator/engine.h keeps the order of events.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ namespace noli::integrator {
 template <class S, int Dim>
 class GravityEvents {
  public:
-  /// Nothing falls.
+  /// Without gravity.
   GravityEvents() = default;
 
-  /// `of_forces`: of each vertex, the shortest step of the forces on it. `masses` stay where they are.
+  /// `of_forces`: by vertex, the shortest step of the forces on it. `masses` must outlive this.
   GravityEvents(const Model<S, Dim>& model, std::vector<double> of_forces, std::span<const S> masses)
       : steps_(steps_of_gravity(held_vertices(model), std::move(of_forces), *model.gravity)) {
     std::vector<double> layer_steps;
@@ -42,14 +42,14 @@ class GravityEvents {
   const Falling<S, Dim>& falling() const { return falling_; }
   Falling<S, Dim>& falling() { return falling_; }
 
-  /// On all vertices, when a run begins.
+  /// Acts on all vertices, when a run begins.
   template <class Recorder>
   void start(const Kicked<S, Dim, Recorder>& now, std::span<const VertexId> all, Instant<S, Dim>& instant,
              Account<S, Dim>& account) {
     fall(now, all, false, instant, account, [&](VertexId i, Account<S, Dim>& sum) { falling_.act(now, i, sum); });
   }
 
-  /// On the vertices of one step. `last`: nothing else strikes at this time.
+  /// Acts on the vertices of one step. `last`: nothing else strikes at this time.
   template <class Recorder>
   void fire(const Kicked<S, Dim, Recorder>& now, const Group& slot, bool last, Instant<S, Dim>& instant,
             Account<S, Dim>& account) {
@@ -58,7 +58,7 @@ class GravityEvents {
     fall(now, slot.vertices, last, instant, account, act);
   }
 
-  /// On what contact strikes.
+  /// Acts on vertices that contact strikes.
   template <class Recorder>
   std::span<const VertexId> fire_where_struck(const Kicked<S, Dim, Recorder>& now, Account<S, Dim>& account) {
     struck_.clear();
@@ -66,8 +66,8 @@ class GravityEvents {
     return fall_alone(now, struck_, account);
   }
 
-  /// On all, at the end of every window: what gravity knows of vertices then follows from the time. `next_end`: of the
-  /// window that begins.
+  /// Acts on all vertices, at the end of every window, so that its state follows from the time. `next_end`: the end of
+  /// the window that begins.
   template <class Recorder>
   std::span<const VertexId> end_window(const Kicked<S, Dim, Recorder>& now, double next_end,
                                        std::span<const VertexId> all, Account<S, Dim>& account) {
@@ -75,8 +75,8 @@ class GravityEvents {
     return fall_alone(now, all, account);
   }
 
-  /// On what these forces carry. Booked by their kind until close_books(): rows may be longer or shorter, and sums must
-  /// not depend on that.
+  /// Acts on the vertices that these forces carry. It is booked by the kind of the forces until close_books(), as sums
+  /// must not depend on the lengths of rows.
   template <class Recorder, class F>
   void fire_with(const Kicked<S, Dim, Recorder>& any_time, std::span<const F> forces,
                  std::span<const DueForce> firing) {
@@ -100,7 +100,7 @@ class GravityEvents {
     return {now.particles, now.record, t, now.scripts};
   }
 
-  /// As part of an instant, which books the work.
+  /// Acts as part of an instant, which books the work.
   template <class Recorder, class Act>
   void fall(const Kicked<S, Dim, Recorder>& now, std::span<const VertexId> vertices, bool last,
             Instant<S, Dim>& instant, Account<S, Dim>& account, const Act& act) {
@@ -133,7 +133,7 @@ class GravityEvents {
   GravitySteps steps_;
   Falling<S, Dim> falling_;
   std::vector<VertexId> struck_, moved_;                    ///< for fire_where_struck, fall_alone
-  std::array<Account<S, Dim>, force_kinds> carried_books_;  ///< of the window, by kind of who carries
+  std::array<Account<S, Dim>, force_kinds> carried_books_;  ///< of the window, by kind of the carrying force
 };
 
 }  // namespace noli::integrator

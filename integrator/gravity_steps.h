@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses how gravity acts on each vertex: with the force of the shortest step there, which carries it, or by itself.
+// Chooses how gravity acts on each vertex: together with the force of the shortest step there, which carries it, or by
+// itself.
 //
 // Notation: that of integrator/falling.h, and
 //   carried  the shortest step of the forces on the vertex is at most gravity's own
-//
-// What this does not do: it acts on nothing (integrator/falling.h does).
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@
 namespace noli::integrator {
 
 struct GravitySteps {
-  std::vector<double> steps;          ///< h of each vertex; infinity for what does not fall
+  std::vector<double> steps;          ///< h of each vertex; infinity if it does not fall
   std::vector<std::uint8_t> carried;  ///< by vertex
 };
 
@@ -40,8 +39,8 @@ GravitySteps steps_of_gravity(const std::vector<std::uint8_t>& held, std::vector
   return result;
 }
 
-/// The vertices of equal steps, longest first. Those that are carried are left out where forces have clocks of their
-/// own: each of them brings gravity with it.
+/// The vertices by equal steps, longest first. If forces have clocks of their own, carried vertices are left out, as
+/// each such force brings gravity with it.
 inline std::vector<Group> gravity_groups(const GravitySteps& gravity, Clocks clocks) {
   std::map<double, std::vector<VertexId>, std::greater<>> of_step;
   for (std::size_t i = 0; i < gravity.steps.size(); ++i) {
@@ -56,8 +55,8 @@ inline std::vector<Group> gravity_groups(const GravitySteps& gravity, Clocks clo
   return groups;
 }
 
-/// Tells forces with clocks of their own, one after another, what they carry: of the forces that could carry a vertex
-/// it is the first one.
+/// Decides which vertices each force with a clock of its own carries. Of the forces that could carry a vertex, the
+/// first one does.
 class Carriers {
  public:
   explicit Carriers(const GravitySteps& gravity) : gravity_(gravity), left_(gravity.carried) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forces in groups of equal step: fired in a row, in mesh order, they cost little more than a synchronous loop.
+// Sorts forces into groups of equal step: fired in a row, in mesh order, they cost little more than a synchronous loop.
 //
 // Notation
 //   W        the window's length; steps are rounded down to W 2^-p, p = 0, 1, 2, ..., so that a window's end is a
@@ -8,8 +8,7 @@
 //   group    the forces of one kind and one p; numbered by kind, then longest step first
 // A force's number, by which events of one time and kind are ordered, follows its group's, then the mesh's order.
 //
-// What this does not do: it judges no stability; rounding down keeps a stable step stable, but see the warnings about
-// resonance (integrator/resonance.h).
+// Rounding down keeps a stable step stable, but see the warnings about resonance (integrator/resonance.h).
 #pragma once
 
 #include <algorithm>
@@ -29,18 +28,18 @@ struct Group {
   ForceKind kind;
   Clock clock;
   std::size_t begin = 0, end = 0;  ///< forces of the kind's list, in the group's order
-  std::vector<VertexId> vertices;  ///< theirs, each once, ascending
+  std::vector<VertexId> vertices;  ///< of these forces, each once, ascending
 };
 
-/// The least p >= 0 of a step W 2^-p that is not longer than h. Preconditions: h, W positive and finite.
+/// The least p >= 0 with W 2^-p <= h. Preconditions: h, W positive and finite.
 inline int step_exponent(double h, double window_length) {
   int p = std::max(0, std::ilogb(window_length) - std::ilogb(h) - 1);
   while (std::ldexp(window_length, -p) > h) ++p;
   return p;
 }
 
-/// Puts a list into the order of its groups and returns these; the list's steps become those of the groups. With
-/// `damped` forces first in each group would change the order of events, so damping is a property of the whole list.
+/// Puts a list into the order of its groups and returns these; the list's steps become those of the groups. Damping is
+/// a property of the whole list: sorting damped forces first in each group would change the order of events.
 template <class F>
 std::vector<Group> make_groups(ForceList<F>& list, double window_length) {
   if (list.forces.empty()) return {};

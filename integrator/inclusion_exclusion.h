@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a vertex has to do with faces that lie side by side, counted once (inclusion and exclusion; Li, Ferguson,
-// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, "Convergent Incremental Potential Contact", 2023, section 4).
-// If each face gave its own push, a vertex above the inside of one would be pushed aside by its neighbours too, whose
-// nearest points are on their common border, and a flat floor would have bumps along its edges.
+// Counts the contact of a vertex with adjacent faces once, by inclusion and exclusion (Li, Ferguson, Schneider,
+// Langlois, Zorin, Panozzo, Jiang, Kaufman, "Convergent Incremental Potential Contact", 2023, section 4). If each face
+// gave a push of its own, a vertex above the inside of one face would also be pushed aside by the neighbours, whose
+// nearest points are on the common border. A flat floor would have bumps along its edges.
 //
 // Notation
-//   cells   the faces that a layer acts on for one vertex (in the plane, and among loose edges: the edges)
+//   cells   the faces on which a layer acts for one vertex (in the plane, and among loose edges: the edges)
 //   k       of a border between cells (edge or vertex): how many of the cells have it
 //   B(x)    the potential of the layer between the vertex and x: r (d - eta)^2 / 2 if d < eta, else 0
-//   weight  1 of a cell, 1 - k of an edge of faces, and of a vertex whatever makes 1 of the sum of the weights of all
-//           that meet there. So where a vertex is nearest to one edge or corner of all cells, that counts once
-// The layer's potential for the vertex is the sum of weight * B. Cells that the layer does not act on need not be
+//   weight  of a cell 1; of an edge of faces 1 - k; of a vertex such that the weights of everything that meets there
+//           add up to 1. So if one edge or corner is the nearest point of all cells, it counts once
+// The layer's potential for the vertex is the sum of weight * B. Cells on which the layer does not act need not be
 // known: a border is no nearer than any cell that has it.
 //
-// Each x has its nearest point inside of itself, or on one of its edges or corners. So all that is summed belongs to
-// one of these `sites`; on a flat surface the weights of all but one of them add up to 0, and no rounding is left over.
-// (Within rounding of a border cells may disagree about where the nearest point is. Their weights still add up to 1.)
+// The nearest point of each x is inside x, or on one of its edges or corners. So each term of the sum belongs to one of
+// these `sites`. On a flat surface the weights of all sites but one add up to 0, without rounding. (Within rounding of
+// a border, cells may disagree about the nearest point. Their weights still add up to 1.)
 //
-// All sites of a vertex are one contact: restitution is decided, and friction bounded, for their sum.
+// All sites of a vertex are one contact: restitution and the bound of friction are decided for their sum.
 //
 // S is double; in audits also multiprecision numbers.
 //
-// What this does not do: pairs of edges (integrator/edge_excess.h).
+// integrator/edge_excess.h handles pairs of edges.
 #pragma once
 
 #include <algorithm>
@@ -37,21 +37,21 @@
 
 namespace noli::integrator {
 
-/// A site that a layer acts on, and how often.
+/// A site on which a layer acts, and its weight.
 template <class S, int Dim>
 struct SiteOfContact {
   certificates::Stencil pair;  ///< the vertex and the site; its key is that of a cell that has the site
   Approach<S, Dim> approach;
   S weight = S(0);  ///< not 0
 
-  /// Of a layer of stiffness 1. Precondition: it acts.
+  /// The potential of a layer of stiffness 1. Precondition: it acts.
   S potential(const S& thickness) const {
     const S g = approach.distance - thickness;
     return S(0.5) * g * g;
   }
 };
 
-/// Adds up what happens to one vertex. Kept between vertices for the room it has.
+/// Collects the sites of one vertex. Reused for one vertex after another, to keep its memory.
 template <class S, int Dim>
 class InclusionExclusion {
  public:
@@ -60,7 +60,7 @@ class InclusionExclusion {
   bool has_faces() const { return cells_.front().pair.kind == FeaturePair::vertex_face; }
   /// Precondition: not empty.
   VertexId vertex() const { return cells_.front().pair.vertices[0]; }
-  /// Whether the pair belongs to what has been added.
+  /// Whether the pair belongs to the same vertex and kind as the pairs added so far.
   bool takes(const certificates::Stencil& pair) const {
     return empty() || (pair.kind == cells_.front().pair.kind && pair.vertices[0] == vertex());
   }
@@ -70,8 +70,8 @@ class InclusionExclusion {
     cells_.push_back({pair, approach, S(1)});
   }
 
-  /// Puts the sites whose weights do not add up to 0 in place of what `result` has, and forgets all. `position`: of a
-  /// vertex of the mesh. The order follows from the mesh alone. Precondition: not empty.
+  /// Replaces `result` by the sites whose weights do not add up to 0, and becomes empty. `position`: of a vertex of the
+  /// mesh. The order depends only on the mesh. Precondition: not empty.
   template <class PositionOf>
   void take(const S& thickness, const PositionOf& position, std::vector<SiteOfContact<S, Dim>>& result) {
     result.clear();
@@ -94,7 +94,7 @@ class InclusionExclusion {
   struct Site {
     Corners corners;
     int weight;
-    std::size_t cell;  ///< that has it; the first of several
+    std::size_t cell;  ///< a cell that has it; the first of several
   };
   struct Border {
     Corners corners;
@@ -121,7 +121,7 @@ class InclusionExclusion {
     sites_.erase(last + 1, sites_.end());
   }
 
-  /// Edges that several faces have. Leaves them, and their weights, in shared_.
+  /// Adds edges that several faces have. Leaves them, and their weights, in shared_.
   void add_edges(const S& thickness, const auto& position) {
     borders_.clear();
     shared_.clear();
@@ -136,8 +136,8 @@ class InclusionExclusion {
     });
   }
 
-  /// Vertices that several cells have. A vertex is no nearer than any edge that has it, so those edges have been added
-  /// if it is.
+  /// Adds vertices that several cells have. A vertex is no nearer than any edge that has it, so if the vertex counts,
+  /// those edges have been added.
   void add_corners(const S& thickness, const auto& position, bool of_faces) {
     borders_.clear();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -156,7 +156,7 @@ class InclusionExclusion {
     });
   }
 
-  /// Calls each(border, how often it is there) for all that is in borders_.
+  /// Calls each(border, count) for each different border in borders_.
   template <class Each>
   void for_each_run(Each&& each) {
     std::ranges::stable_sort(borders_, {}, &Border::corners);
@@ -177,7 +177,7 @@ class InclusionExclusion {
     return true;
   }
 
-  /// Which corners have a part in the closest point: that is where it is.
+  /// The corners with a nonzero weight in the closest point, which tell its site.
   static Corners nearest(const certificates::Stencil& pair, const Approach<S, Dim>& approach) {
     Corners corners{none, none, none};
     std::size_t count = 0;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work of groups of forces that strike at one time, booked when all of them have struck.
+// Books the work of groups of forces that strike at one time, after all of them have struck.
 //
 // Notation
-//   v0, v1   a particle's velocity before and after all that strikes at this time
-//   J        what one group gives a particle [N s]; of it D is damping
+//   v0, v1   a particle's velocity before and after everything that strikes at this time
+//   J        the impulse of one group on a particle [N s]; D the part of it that is damping
 //
-// Where forces nearly balance, each of them alone would throw a particle far off, and the next one throws it back.
-// Velocities in between mean nothing: each group works with (v0 + v1) / 2, J . (v0 + v1) / 2 in all and D . (v0 + v1) /
-// 2 of it by damping. The works of all groups still add up to the change of kinetic energy.
+// When forces nearly balance, each of them alone would throw a particle far off, and the next one throws it back. The
+// velocities in between are meaningless. So each group does the work J . (v0 + v1) / 2, of which D . (v0 + v1) / 2 is
+// damping. The works of all groups still add up to the change of kinetic energy.
 //
-// What this does not do: it knows nothing of particles that are held, whose velocity no force changes.
+// Held particles, whose velocity no force changes, are booked elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ class Instant {
   Instant() = default;
   explicit Instant(std::size_t particles) : begun_(particles, 0), before_(particles) {}
 
-  /// A group is about to strike `vertices`, which outlive this time; `last`: no other does after it. `velocity`: tells
-  /// that of a vertex, and is called for each, in order. Then end() is called.
+  /// Call this before a group strikes `vertices`, which must outlive this time; `last`: it is the last group.
+  /// `velocity` returns that of a vertex, and is called for each, in order. Call end() afterwards.
   template <bool Damped, class Velocity>
   void begin(ForceKind kind, bool last, std::span<const VertexId> vertices, Velocity&& velocity) {
     groups_.push_back({kind, Damped, vertices, changes_.size(), dampings_.size()});
@@ -48,8 +48,9 @@ class Instant {
     }
   }
 
-  /// The group has struck. `settled`: settles a vertex and returns what has its `v` and `inverse_mass`, which is 0 if
-  /// it is held; called for each, in order. `damping`: D of a vertex, if the group is damped.
+  /// Call this after the group has struck. `settled` settles a vertex and returns an object with its `v` and
+  /// `inverse_mass`, which is 0 if it is held; called for each, in order. `damping`: D of a vertex, if the group is
+  /// damped.
   template <bool Damped, class Settled, class Damping = std::nullptr_t>
   void end(Settled&& settled, Damping&& damping = {}) {
     const Group& group = groups_.back();
@@ -74,7 +75,7 @@ class Instant {
     twice_damping_ = twice_damping;
   }
 
-  /// The last group has struck, or no other will. `particles`: of what has `v` and `inverse_mass`.
+  /// Call this after the last group has struck. `particles`: objects with `v` and `inverse_mass`.
   template <class Particles>
   void close(const Particles& particles, Books<S, Dim>& books) {
     if (groups_.empty()) return;
@@ -98,7 +99,7 @@ class Instant {
     std::size_t first_damping;  ///< of dampings_
   };
 
-  /// One that was not the last.
+  /// Books a group that was not the last.
   template <class Particles>
   void close_early(const Group& group, const Particles& particles, Account<S, Dim>& account) const {
     S twice_work(0), twice_damping(0);
@@ -120,10 +121,10 @@ class Instant {
   bool last_ = false, alone_ = false;  ///< the last group of groups_
   S twice_work_{}, twice_damping_{};   ///< of the last group
   std::vector<Group> groups_;
-  std::vector<Vec<S, Dim>> changes_;  ///< J / m, of the groups' vertices, one after another; before after(), velocities
-  std::vector<Vec<S, Dim>> dampings_;  ///< D, of those of damped groups
+  std::vector<Vec<S, Dim>> changes_;   ///< J / m of the groups' vertices, one after another; before end(), velocities
+  std::vector<Vec<S, Dim>> dampings_;  ///< D, of the vertices of damped groups
   std::uint64_t number_ = 1;           ///< of this time
-  std::vector<std::uint64_t> begun_;   ///< by particle: the number of the time that before_ is of
+  std::vector<std::uint64_t> begun_;   ///< by particle: the number of the time to which before_ belongs
   std::vector<Vec<S, Dim>> before_;    ///< v0, by particle
 };
 

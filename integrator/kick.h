@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forces fire: lines 3 to 9 of Algorithm 1 (Harmon et al. 2009), with what design, "What an event may write", asks: a
+// Fires forces: lines 3 to 9 of Algorithm 1 (Harmon et al. 2009), with the rule of design, "What an event may write": a
 // particle's position, clock and velocity change only if the impulse on it is not zero.
 //
 // Notation
 //   h      step of a force; its impulses are J = -h grad V (a whole kick, or h/2 at the start of a run)
-//   blows  forces that fire, in order, with what becomes of their vertices: those of one step at one time (GroupBlows),
-//          or of any times but without a vertex in common (SingleBlows)
-// In either case no force's positions depend on the velocities that another one leaves, so the impulses of a row of
-// forces are found first, then applied. Short loops keep more forces in flight in the processor: in one loop it took
+//   blows  forces that fire, in order, and their effect: forces of one step at one time (GroupBlows), or of any times
+//          but without a vertex in common (SingleBlows)
+// In both cases no force's positions depend on the velocities that another one leaves. So the impulses of a row of
+// forces are computed first, then applied. Two short loops keep more forces in flight in the processor: one loop took
 // half as long again. The numbers are those of firing one after the other.
 //
-// Damping is along the gradients of what a force measures: a measure is unchanged by rigid motions, so its damping
-// leaves linear and angular momentum alone, and rigid motion undamped.
+// Damping acts along the gradients of a force's measures. Rigid motions do not change a measure, so its damping does
+// not change linear and angular momentum, and rigid motion is undamped.
 //   s, g_i   a measure and its gradient at vertex i; w_i the inverse mass there
 //   rate     ds/dt = sum g_i.v_i
 //   a        sum w_i |g_i|^2: an impulse -J g_i on each vertex lowers the rate by J a
 //   b        damping * stiffness of the measure
 //   J        h b rate / (1 + h b a): the rate falls to rate / (1 + h b a) and keeps its sign, whatever h and b are; it
 //            is the implicit Euler step for the rate
-// Measures take their turn, each on the velocities that the one before has left. Between masses in motion that no
-// impulse moves (scripted ones) and free ones it is a force like any other, which may do work on the free ones. It is
-// no smooth function of time: it belongs to the force's events.
-//
-// What this does not do: it keeps no clocks.
+// Measures are damped in turn, each with the velocities that the previous one has left. Between moving masses that no
+// impulse moves (scripted ones) and free ones, damping is a force like any other, which may do work on the free ones.
+// It is not a smooth function of time: it belongs to the force's events.
 #pragma once
 
 #include <algorithm>
@@ -40,21 +38,21 @@
 
 namespace noli::integrator {
 
-/// In space and double precision, a cache line: forces that fire by themselves come to particles in no order.
+/// A cache line in space and double precision, as forces with clocks of their own access particles in random order.
 template <class S, int Dim>
 constexpr std::size_t particle_alignment = sizeof(S) == 8 && Dim == 3 ? 64 : alignof(S);
 
-/// A vertex as a point mass with a clock of its own: between events it moves on a straight line, and is brought up to
-/// date when an event moves it.
+/// A vertex as a point mass with a clock of its own. Between events it moves on a straight line; it is updated when an
+/// event moves it.
 template <class S, int Dim>
 struct alignas(particle_alignment<S, Dim>) Particle {
-  Vec<S, Dim> x;     ///< where it was at time t [m]
+  Vec<S, Dim> x;     ///< position at time t [m]
   double t = 0;      ///< its clock [s]
   Vec<S, Dim> v;     ///< since then [m/s]
   S inverse_mass{};  ///< [1/kg]; 0: pinned or scripted, no force moves it
 
-  /// Where it is at a time that is not before its clock, if no event comes between. Reading changes nothing: what
-  /// rounding does to a run does not depend on who looks.
+  /// Its position at a time not before its clock, if no event comes in between. Reading changes nothing, so rounding in
+  /// a run does not depend on readers.
   Vec<S, Dim> at(double time) const { return x + (S(time) - S(t)) * v; }
 
   bool finite() const { return x.allFinite() && v.allFinite(); }
@@ -86,7 +84,7 @@ VertexVectors<S, Dim, N> damp(const F& force, const VertexVectors<S, Dim, N>& x,
   return impulses;
 }
 
-/// What a kick needs beside the force.
+/// The arguments of a kick besides the force.
 template <class S, int Dim, class Recorder>
 struct Kicked {
   std::span<Particle<S, Dim>> particles;
@@ -95,7 +93,7 @@ struct Kicked {
   ScriptBook<S, Dim>* scripts;  ///< books the work of scripts
 };
 
-/// Gives a particle that is at x now another velocity. Room in the recording is the caller's business.
+/// Gives a particle that is at x now another velocity. Precondition: the recording has room.
 template <class S, int Dim, class Recorder>
 void set_velocity(const Kicked<S, Dim, Recorder>& now, VertexId i, const Vec<S, Dim>& x, const Vec<S, Dim>& v) {
   Particle<S, Dim>& p = now.particles[i];
@@ -105,7 +103,7 @@ void set_velocity(const Kicked<S, Dim, Recorder>& now, VertexId i, const Vec<S, 
   p.v = v;
 }
 
-/// Whether any coordinate differs; mostly the first one does.
+/// Whether any coordinate differs; usually the first one does.
 template <class S, int Dim>
 bool differ(const Vec<S, Dim>& a, const Vec<S, Dim>& b) {
   for (int k = 0; k < Dim; ++k) {
@@ -114,8 +112,8 @@ bool differ(const Vec<S, Dim>& a, const Vec<S, Dim>& b) {
   return false;
 }
 
-/// Where a vertex is at the time of an event of many forces, and whether one of them has changed its velocity. The mass
-/// is here because beside a velocity that has just been written it could not be read without waiting.
+/// The state of a vertex at the time of an event of many forces, and whether one of them has changed its velocity. It
+/// has a copy of the mass, which could not be read without a stall next to a velocity that has just been written.
 template <class S, int Dim>
 struct alignas(particle_alignment<S, Dim>) Here {
   Vec<S, Dim> x;
@@ -124,7 +122,7 @@ struct alignas(particle_alignment<S, Dim>) Here {
   bool changed;
 };
 
-/// Forces of equal step that strike at one time. `here` has been filled for all their vertices.
+/// Forces of equal step that strike at one time. Precondition: `here` has been filled for all their vertices.
 template <class F, class S, int Dim, class Recorder>
 struct GroupBlows {
   static constexpr bool are_events = false;  ///< their works are booked elsewhere (integrator/instant.h)
@@ -147,7 +145,7 @@ struct GroupBlows {
   }
 };
 
-/// A force that fires by itself.
+/// A force with a clock of its own that fires.
 struct DueForce {
   double t, h;
   std::size_t force;
@@ -159,7 +157,7 @@ struct DueForce {
 template <class F, class S, int Dim, class Recorder>
 struct SingleBlows {
   static constexpr bool are_events = true;
-  std::span<const F> forces;  ///< of which some fire
+  std::span<const F> forces;  ///< some of them fire
   std::span<const DueForce> firing;
   std::span<Particle<S, Dim>> particles;
   Recorder& record;
@@ -179,17 +177,17 @@ struct SingleBlows {
   }
 };
 
-/// A particle that is not free, when an event strikes it.
+/// A held particle when an event strikes it.
 template <class S, int Dim>
 struct Held {
   VertexId vertex;
   double t;       ///< of the event [s]
-  Vec<S, Dim> x;  ///< where it is then
-  Vec<S, Dim> v;  ///< from then on
+  Vec<S, Dim> x;  ///< its position then
+  Vec<S, Dim> v;  ///< its velocity from then on
 };
 
-/// Books what a particle that is not free takes out of the momentum of all others, and the work of what holds it.
-/// `impulse`: the whole of the event's. Returns the velocity with which that works.
+/// Books the momentum that a held particle takes from all others, and the work of its holder. `impulse`: the total of
+/// the event. Returns the velocity with which it works.
 template <class S, int Dim>
 [[gnu::noinline]] Vec<S, Dim> book_held(Account<S, Dim>& account, ScriptBook<S, Dim>& scripts, const Held<S, Dim>& held,
                                         const Vec<S, Dim>& impulse) {
@@ -202,8 +200,8 @@ template <class S, int Dim>
   return v;
 }
 
-/// The impulses of blow k. Written in place, number by number: copying what has just been written in smaller pieces
-/// holds up the processor.
+/// The impulses of blow k. Written in place, number by number: copying numbers that were just written in smaller pieces
+/// stalls the processor.
 template <class F, class S, int Dim, class Blows>
 void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::size>& impulses) {
   const F& force = blows.force(k);
@@ -216,15 +214,15 @@ void find_impulses(const Blows& blows, std::size_t k, VertexVectors<S, Dim, F::s
   }
 }
 
-/// What blow k does to its vertices, which are still as they were before.
+/// The effect of a blow on its vertices, before it is applied.
 template <class S, int Dim, std::size_t N>
 struct BlowOf {
   VertexVectors<S, Dim, N> impulses;  ///< of the potential
-  VertexVectors<S, Dim, N> damping;   ///< further ones; not there if nothing is damped
+  VertexVectors<S, Dim, N> damping;   ///< of damping; uninitialised if nothing is damped
   VertexVectors<S, Dim, N> v;         ///< velocities after it [m/s]
 };
 
-/// Books blow k as an event; where it is only part of one, what holds particles.
+/// Books blow k as an event; if it is only part of an event, books only held particles.
 template <bool Damped, class S, int Dim, std::size_t N, class Blows>
 void book(const Blows& blows, std::size_t k, const BlowOf<S, Dim, N>& blow, Account<S, Dim>& account) {
   const auto& vertices = blows.force(k).vertices;
@@ -271,7 +269,7 @@ void apply(const Blows& blows, std::size_t k, const VertexVectors<S, Dim, N>& im
   for (std::size_t i = 0; i < N; ++i) blows.settle(k, force.vertices[i], blow.v[i]);
 }
 
-/// Fires all. Leaves the activity at what it does last.
+/// Fires all blows. Leaves `activity` at its last phase.
 template <bool Damped, class F, class S, int Dim, class Blows>
 void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
   constexpr std::size_t row = 64;
@@ -286,8 +284,8 @@ void strike(const Blows& blows, Account<S, Dim>& account, Activity& activity) {
   account.events += blows.size();
 }
 
-/// Fires forces of equal step that strike at one time. `vertices`: all of theirs, each once; `here` has room for every
-/// particle; `last`: no others strike at this time after them.
+/// Fires forces of equal step that strike at one time. `vertices`: of these forces, each once; `here` has room for
+/// every particle; `last`: no other forces strike at this time after them.
 template <bool Damped, class F, class S, int Dim, class Recorder>
 void kick_all(const Kicked<S, Dim, Recorder>& now, std::span<const F> forces, std::span<const VertexId> vertices,
               std::span<Here<S, Dim>> here, const S& h, bool last, Instant<S, Dim>& instant, Account<S, Dim>& account,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A layer fires for its pairs: one after the other, or, where the scene asks for it, so that a flat mesh acts as a
-// plane (integrator/inclusion_exclusion.h, integrator/edge_excess.h).
+// Fires a layer for its pairs: one after the other, or, if the scene asks for it, so that a flat mesh acts like a plane
+// (integrator/inclusion_exclusion.h, integrator/edge_excess.h).
 //
-// What this does not do: it says neither when a layer fires nor for which pairs (integrator/contact.h).
+// integrator/contact.h decides when a layer fires and for which pairs.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,7 @@
 
 namespace noli::integrator {
 
-/// What lies side by side, together: takes pairs that a layer acts on, in the order of their keys, and makes contacts
-/// of them.
+/// Joins adjacent cells: takes the pairs on which a layer acts, in the order of their keys, and makes contacts of them.
 template <class S, int Dim>
 class JoinedContacts {
  public:
@@ -29,7 +28,7 @@ class JoinedContacts {
 
   static bool joins(const certificates::Stencil& pair) { return pair.kind != FeaturePair::vertex_vertex; }
 
-  /// Calls each(sites of one contact) for what is complete. Precondition: joins(pair).
+  /// Adds a pair. Calls each(sites of one contact) for contacts that are complete. Precondition: joins(pair).
   template <class PositionOf, class Each>
   void add(const certificates::Stencil& pair, const Approach<S, Dim>& approach, const S& thickness,
            const PositionOf& position, Each&& each) {
@@ -39,7 +38,7 @@ class JoinedContacts {
     if (!contact_.empty()) each(Sites(contact_));
   }
 
-  /// The same of what is left.
+  /// Calls each() for the remaining contacts.
   template <class PositionOf, class Each>
   void finish(const S& thickness, const PositionOf& position, Each&& each) {
     if (!cells_.empty()) take_cells(thickness, position, each);
@@ -64,13 +63,13 @@ class JoinedContacts {
 template <class S, int Dim>
 class LayerFire {
  public:
-  /// `joins`: what lies side by side counts once.
+  /// `joins`: adjacent cells count once.
   explicit LayerFire(bool joins) : joins_(joins) {}
 
-  /// Fires for h seconds. `pairs`: in the order of their keys. Calls seen(i, approach, course) for pairs[i], each once,
-  /// and struck(pair, closest points) for what gets an impulse. Of pairs that are joined `course` says whether the
-  /// layer acts on them and between which points. Throws ContactLimit at distance 0. Room in the recording is the
-  /// caller's business: for all vertices of the pairs.
+  /// Fires for h seconds. `pairs`: in the order of their keys. Calls seen(i, approach, course) once for each pairs[i],
+  /// and struck(pair, closest points) for pairs that get an impulse. For joined pairs, `course` only says whether the
+  /// layer acts on them. Throws ContactLimit at distance 0. Precondition: the recording has room for all vertices of
+  /// the pairs.
   template <class Recorder, class Seen, class Struck>
   void operator()(const Kicked<S, Dim, Recorder>& now, std::span<const certificates::Stencil> pairs,
                   const LayerTerms& layer, double h, Account<S, Dim>& account, Seen&& seen, Struck&& struck) {
@@ -102,7 +101,8 @@ class LayerFire {
   const Anchors<S>& anchors() const { return anchors_; }
   Anchors<S>& anchors() { return anchors_; }
 
-  /// Calls each(pair, closest points, g, weight) for what the layer acts on where things are: position(vertex).
+  /// Calls each(pair, closest points, g, weight) for the pairs on which the layer acts, with vertices at
+  /// position(vertex).
   template <class PositionOf, class Each>
   void for_each_acting(std::span<const certificates::Stencil> pairs, const LayerTerms& layer,
                        const PositionOf& position, Each&& each) const {
@@ -139,8 +139,8 @@ class LayerFire {
     }
   }
 
-  /// Whether the sites part, all together: whether the layer's potential falls. And what share of what pushes them
-  /// apart is left when what pulls is taken off.
+  /// Decides whether the sites part as a whole: whether the layer's potential falls. And computes which share of the
+  /// push remains after the pull is subtracted.
   template <class Recorder>
   static Strength<S> strength_of_all(const Kicked<S, Dim, Recorder>& now, std::span<const SiteOfContact<S, Dim>> sites,
                                      const S& thickness) {
@@ -158,7 +158,7 @@ class LayerFire {
                  return now.particles[site.pair.vertices[i]].v;
                });
       if (push > S(0)) pushes += push;
-      // Of a pair of edges, an end of the second one is on the other side.
+      // In a pair of edges, an end of the second edge is on the other side.
       const VertexId v = site.pair.vertices[0];
       const bool turned = of.kind == FeaturePair::edge_edge && (v == of.vertices[2] || v == of.vertices[3]);
       net += (turned ? S(-along) : along) * closest.r;
@@ -170,8 +170,8 @@ class LayerFire {
 
   Anchors<S> anchors_;  ///< of all materials
   bool joins_;
-  /// Of the pairs that fire next: all are found before any of them fires. One by one, each would wait for what the one
-  /// before has just written.
+  /// Of the pairs that fire next. All are computed before any pair fires: one by one, each would wait for what the
+  /// previous one has just written.
   std::array<Approach<S, Dim>, 64> approaches_;
   JoinedContacts<S, Dim> joined_;
 };

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run integrates: particles, forces with their steps, scripts. Built from a scene (integrator/scene), or by hand
-// in tests and benchmarks.
+// The model that a run integrates: particles, forces with their steps, scripts. It is built from a scene
+// (integrator/scene), or by hand in tests and benchmarks.
 //
 // Notation
 //   h        a force's step [s]; it fires at the times k h, k = 1, 2, ...
 //   window   a piece of simulated time up to the next multiple of W = window_length, or up to the time at which it has
-//            most_breakpoints; its end is an event at which every particle is advanced, so both are part of what
-//            determines the run
+//            most_breakpoints. Its end is an event that advances every particle, so both parameters determine the run
 //
-// What this does not do: it does not say whether steps are stable (integrator/stable_step.h does).
+// integrator/stable_step.h computes stable steps.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +41,7 @@ struct ForceList {
   }
 };
 
-/// A path that a vertex follows whatever acts on it: linear between breakpoints, at rest before the first and after the
+/// A path that a vertex follows despite all forces: linear between breakpoints, at rest before the first and after the
 /// last. Its mass counts as infinite.
 template <class S, int Dim>
 struct Script {
@@ -56,8 +55,8 @@ struct Script {
 template <class S, int Dim>
 struct Gravity {
   Vec<S, Dim> acceleration;  ///< [m/s^2]
-  double step = 0;           ///< the longest [s]; on a vertex, that of the forces on it where it is shorter
-  /// The longest where no force acts [s].
+  double step = 0;           ///< the longest [s]; a vertex takes the step of the forces on it if that is shorter
+  /// The longest step of vertices without forces [s].
   double step_without_forces = std::numeric_limits<double>::infinity();
 };
 
@@ -83,7 +82,7 @@ struct Forces<S, 2> {
   auto lists() const { return std::tie(edge_springs, turnings); }
 };
 
-/// For its type alone.
+/// Only its type is used.
 template <template <class> class Of, class... F>
 std::tuple<Of<F>...> of_each(const std::tuple<const ForceList<F>&...>& lists);
 
@@ -95,19 +94,19 @@ enum class Clocks : std::uint8_t { grouped, own };
 
 template <class S, int Dim>
 struct Model {
-  Mesh mesh;                            ///< the cells, for verification; forces have vertices of their own
+  Mesh mesh;                            ///< the cells, for verification; forces list their own vertices
   std::vector<Vec<S, Dim>> x;           ///< positions at time 0 [m]
   std::vector<Vec<S, Dim>> v;           ///< velocities at time 0 [m/s]
-  std::vector<S> mass;                  ///< [kg], positive; the mass of pinned and scripted vertices does not matter
+  std::vector<S> mass;                  ///< [kg], positive; ignored for pinned and scripted vertices
   std::vector<VertexId> pinned;         ///< vertices that never move
-  std::vector<Script<S, Dim>> scripts;  ///< at most one a vertex; not for pinned ones
+  std::vector<Script<S, Dim>> scripts;  ///< at most one per vertex; not for pinned ones
   std::optional<Gravity<S, Dim>> gravity;
   Forces<S, Dim> forces;
   double window_length = 0;  ///< W [s], positive
-  /// A window that has so many breakpoints, those at its begin included, ends after all events of that time.
+  /// A window with this many breakpoints, including those at its beginning, ends after all events of that time.
   std::size_t most_breakpoints = std::numeric_limits<std::size_t>::max();
   Clocks clocks = Clocks::grouped;
-  std::optional<ContactSettings> contact;  ///< nothing: things that meet end the run
+  std::optional<ContactSettings> contact;  ///< nothing: the first contact ends the run
 };
 
 /// By vertex: 1 if it is pinned or scripted, so that no force moves it.

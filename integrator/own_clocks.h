@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forces that each have a clock of their own: which fire next, in rows that may fire together because no two of a row
-// have a vertex in common.
+// Schedules forces that each have a clock of their own. They fire in rows; no two forces of a row have a vertex in
+// common, so they may fire together.
 //
 // Notation
 //   number   of a force among all forces: those of one kind follow one another
 //   shelf    the forces of one kind
-//   row      the next forces, in the order of Calendar, as far as they have no vertex in common
+//   row      the next forces, in the order of Calendar, as long as they have no vertex in common
 //
-// Such forces fire in no order that a processor could foresee: where one of them is in memory is found without a branch
-// on its kind, and asked for some time before it is needed.
+// Processors cannot predict the order of such forces. So their addresses are computed without a branch on their kind,
+// and prefetched some time before they are needed.
 //
-// What this does not do: it fires nothing. Forces must stay where they are in memory.
+// Precondition: forces do not move in memory.
 #pragma once
 
 #include <algorithm>
@@ -29,28 +29,28 @@
 
 namespace noli::integrator {
 
-/// A calendar queue (Brown 1988, "Calendar queues: a fast O(1) priority queue implementation") for events that come
-/// back at fixed steps.
-///   event     a number; all events are in the queue all the time, each at its clock's time
-///   day       a stretch of time not longer than half the least step, so that an event never comes back on the day on
-///             which it happens; day d holds the times t with floor(t / length) = d
-///   calendar  as many days as the longest step needs, used in turn; or so many that an event may have to wait for
-///             another year, in which a page is used again
-///   bucket    a day has as many as it has events; they sort its events nearly
+/// A calendar queue (Brown 1988, "Calendar queues: a fast O(1) priority queue implementation") for events that repeat
+/// at fixed steps.
+///   event     a number; all events are always in the queue, each at its clock's time
+///   day       a time interval not longer than half the least step, so that an event never repeats on the same day; day
+///             d has the times t with floor(t / length) = d
+///   calendar  pages for as many days as the longest step needs, used cyclically; or a maximum number, so that an event
+///             may have to wait for another year, when its page is used again
+///   bucket    a day has as many as it has events; they sort its events approximately
 ///
-/// Events come in ascending order of (time, number). Entries carry their clocks: looking into a table of events, in the
-/// order in which they happen, would cost a cache miss each. Days are long, so that few of them are written to by turns
-/// and stay in the cache. Events do not come or go.
+/// Events come in ascending order of (time, number). Entries contain their clocks, as a look into a table of events
+/// would cost a cache miss for each. Days are long, so that writes alternate between few of them, which stay in the
+/// cache. Events are never added or removed.
 class Calendar {
  public:
-  /// What the caller says of an event.
+  /// Data of an event, from the caller.
   struct Said {
     std::uint16_t kind;
     std::uint16_t carries;  ///< bit k: gravity acts on vertex k with it
   };
 
   struct Entry {
-    double step, next;  ///< h and k, a whole number
+    double step, next;  ///< h and k, an integer
     std::uint32_t event;
     Said said;
 
@@ -59,8 +59,8 @@ class Calendar {
 
   Calendar() = default;
 
-  /// One event for each step; each at its first time after `now`. `said`: one for each step. Precondition: steps
-  /// positive, fewer than 2^32.
+  /// One event for each step, at its first time after `now`. `said`: one for each step. Precondition: steps are
+  /// positive, and fewer than 2^32.
   Calendar(const std::vector<double>& steps, const std::vector<Said>& said, double now) {
     if (steps.empty()) return;
     const auto [least, longest] = std::minmax_element(steps.begin(), steps.end());
@@ -82,7 +82,7 @@ class Calendar {
   /// The next event. Precondition: not empty.
   const Entry& front() const { return today_[at_]; }
 
-  /// What comes after it on the same day, as far as it goes.
+  /// The number of events after it on the same day, and the i-th entry of the day from it on.
   std::size_t ahead() const { return today_.size() - at_ - 1; }
   const Entry& ahead(std::size_t i) const { return today_[at_ + i]; }
 
@@ -97,7 +97,7 @@ class Calendar {
   }
 
  private:
-  static constexpr double per_day = 1024;       ///< events that are sorted at once
+  static constexpr double per_day = 1024;       ///< events that are sorted together
   static constexpr double most_days = 1 << 16;  ///< in a year
 
   static bool before(const Entry& a, const Entry& b) {
@@ -111,7 +111,7 @@ class Calendar {
 
   void put(const Entry& entry) { page(day_of(entry)).push_back(entry); }
 
-  /// Turns to the next day on which something happens.
+  /// Moves to the next day that has an event.
   void open() {
     for (today_.clear(); today_.empty(); ++day_) take(page(day_));
     --day_;
@@ -131,7 +131,7 @@ class Calendar {
     entries.erase(entries.begin(), later);
   }
 
-  /// Into today_. Counting instead of comparing: a comparison of random times is a branch that no processor foresees.
+  /// Fills today_. Counts instead of comparing: processors cannot predict a comparison of random times.
   void sort_into_buckets(std::span<const Entry> entries) {
     const std::size_t n = entries.size();
     const double begin = static_cast<double>(day_) * length_, buckets_a_second = static_cast<double>(n) / length_;
@@ -161,7 +161,7 @@ class Calendar {
   double length_ = 0;
   std::uint64_t day_ = 0;
   std::vector<Entry> today_;                     ///< sorted
-  std::vector<std::uint32_t> buckets_, begins_;  ///< for sort_into_buckets; mean nothing between
+  std::vector<std::uint32_t> buckets_, begins_;  ///< for sort_into_buckets; meaningless between calls
   std::size_t at_ = 0;
   bool many_years_ = false;
 };
@@ -173,7 +173,7 @@ class Shelf {
 
   Shelf() = default;
 
-  /// `first`: number of the first of the forces. They stay where they are.
+  /// `first`: the number of the first force. The forces must outlive this.
   template <class F>
   Shelf(const std::vector<F>& forces, std::size_t first) : first_(first) {
     if (forces.empty()) return;
@@ -185,7 +185,7 @@ class Shelf {
 
   std::size_t first() const { return first_; }
 
-  /// Calls each(vertex) four times, for all vertices of a force; of some more than once.
+  /// Calls each(vertex) four times, for all vertices of a force; for some more than once.
   template <class Each>
   void for_each_vertex(std::size_t number, const Each& each) const {
     static_assert(most_vertices == 4);
@@ -205,7 +205,7 @@ class Shelf {
   std::size_t first_ = 0, stride_ = 0, last_ = 0;
 };
 
-/// Finds out whether forces that are to fire together have a vertex in common.
+/// Finds out whether forces have a vertex in common.
 class Claims {
  public:
   explicit Claims(std::size_t vertex_count = 0) : claimed_(vertex_count, 0) {}
@@ -217,7 +217,7 @@ class Claims {
     round_ = 1;
   }
 
-  /// Claims the vertices of a force, unless one of them is taken; says whether it did.
+  /// Claims the vertices of a force, unless one of them is taken; returns whether it did.
   bool claim(const Shelf& shelf, std::size_t number) {
     bool taken = false;
     shelf.for_each_vertex(number, [&](VertexId v) { taken |= claimed_[v] == round_; });
@@ -226,11 +226,11 @@ class Claims {
   }
 
  private:
-  std::vector<std::uint32_t> claimed_;  ///< by vertex: the round in which it was claimed last
+  std::vector<std::uint32_t> claimed_;  ///< by vertex: the last round in which it was claimed
   std::uint32_t round_ = 0;
 };
 
-/// Clocks of forces of so many kinds.
+/// The clocks of forces of `Kinds` kinds.
 template <std::size_t Kinds>
 class OwnClocks {
  public:
@@ -238,16 +238,16 @@ class OwnClocks {
 
   OwnClocks() = default;
 
-  /// `calendar`: of all forces, by number; it says which shelf each is on.
+  /// `calendar`: of all forces, by number; its entries say on which shelf each force is.
   OwnClocks(const std::array<Shelf, Kinds>& shelves, Calendar calendar, std::size_t vertex_count)
       : calendar_(std::move(calendar)), shelves_(shelves), claims_(vertex_count) {}
 
   bool empty() const { return calendar_.empty(); }
-  /// Of the next force. Precondition: not empty.
+  /// The time of the next force. Precondition: not empty.
   double next_time() const { return calendar_.front().time(); }
 
-  /// Takes the next row: at least one force, at most `longest`, while is_due(). `prefetch`: is told vertices that will
-  /// be needed.
+  /// Takes the next row: at least one force, at most `longest`, while is_due(). Calls `prefetch` with vertices that
+  /// will be needed.
   template <class IsDue, class Prefetch>
   void take_row(std::size_t longest, const IsDue& is_due, const Prefetch& prefetch) {
     sizes_ = {};
@@ -264,7 +264,7 @@ class OwnClocks {
     }
   }
 
-  /// Those of the row that are of this kind.
+  /// The forces of the row that are of this kind.
   std::span<const DueForce> row(std::size_t kind) const { return {row_[kind].data(), sizes_[kind]}; }
 
  private:

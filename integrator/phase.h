@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run is busy with at the moment: one byte, written by who works, read by who wants to know where time goes.
+// The current phase of a run: one byte, written by the working thread, read by a thread that measures where time goes.
 //
-// What this does not do: it measures no time. Writing the byte costs about as much as any other store, so phases of a
-// few nanoseconds are not told apart. Nothing that is computed depends on it.
+// Writing the byte costs about as much as any other store, so phases of a few nanoseconds are not distinguished. No
+// result depends on it.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ class Activity {
   std::atomic<Phase> now_{Phase::other};
 };
 
-/// A phase that lasts as long as this does; then the one before goes on.
+/// Sets a phase as long as this object lives; the destructor restores the previous one.
 class PhaseScope {
  public:
   PhaseScope(Activity& activity, Phase phase) : activity_(activity), before_(activity.now()) { activity.set(phase); }

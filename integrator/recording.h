@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Breakpoints as they come: one append-only stream in the order of events, put in order by vertex when the window is
-// done (a buffer for each vertex would cost several times as much).
+// Records breakpoints: one append-only stream in the order of events, sorted by vertex when the window is done (a
+// buffer for each vertex would cost several times as much).
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace noli::integrator {
 
-/// Where a vertex was when an event changed its velocity, or at a window's end.
+/// The position of a vertex when an event changed its velocity, or at a window's end.
 template <class S, int Dim>
 struct Breakpoint {
   Vec<S, Dim> x;
@@ -26,7 +26,7 @@ struct Breakpoint {
 template <class S, int Dim>
 class Recording {
  public:
-  /// Makes room for so many more.
+  /// Makes room for `count` more breakpoints.
   void reserve(std::size_t count) {
     if (stream_.size() - size_ < count) grow(count);
   }
@@ -38,7 +38,7 @@ class Recording {
 
   std::span<const Breakpoint<S, Dim>> stream() const { return {stream_.data(), size_}; }
   std::size_t size() const { return size_; }
-  /// Of the breakpoint that came last. Precondition: there is one.
+  /// The time of the last breakpoint. Precondition: there is one.
   double last_time() const { return stream_[size_ - 1].t; }
   /// Forgets the breakpoints and keeps their room for the next window.
   void clear() { size_ = 0; }
@@ -56,14 +56,14 @@ struct Uncounted {
   static constexpr double last_time() { return 0; }
 };
 
-/// For runs that nobody looks at.
+/// For runs without a recording.
 struct NoRecording : Uncounted {
   void reserve(std::size_t) {}
   template <class X>
   void put(VertexId, double, const X&, bool) {}
 };
 
-/// Counts breakpoints as Recording does, and keeps none: windows end at the same times.
+/// Counts breakpoints like Recording without storing them, so that windows end at the same times.
 class BreakpointCount {
  public:
   void reserve(std::size_t) {}
@@ -81,8 +81,8 @@ class BreakpointCount {
   double last_time_ = 0;
 };
 
-/// The world lines of a window: the stream by vertex. Third coordinates of plane motion are zero. Throws InputError
-/// when they are none: fewer than two breakpoints of a vertex, or one that is not finite.
+/// The world lines of a window: the stream sorted by vertex. Third coordinates of plane motion are zero. Throws
+/// InputError when a vertex has fewer than two breakpoints, or one that is not finite.
 template <int Dim>
 WorldLines world_lines(const Recording<double, Dim>& recording, std::size_t vertex_count) {
   const auto stream = recording.stream();

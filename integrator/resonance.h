@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Resonance between steps: two forces, each stable by itself, may together be unstable because one is kicked in time
-// with the other's oscillation (Fong, Darve, Lew, "Stability of asynchronous variational integrators", study this; the
+// Finds resonance between steps: two forces, each stable by itself, may be unstable together if one kicks in time with
+// the other's oscillation (Fong, Darve, Lew, "Stability of asynchronous variational integrators", study this; the
 // formulas here are derived).
 //
 // Notation, for a unit mass on two springs
-//   h1, omega1   step of the slow spring and the frequency that it alone would give the mass; h1 > h2
+//   h1, omega1   step of the slow spring, and the frequency that this spring alone would give the mass; h1 > h2
 //   h2, omega2   of the fast spring; h2 omega2 < 2
 //   theta        phase of the fast spring in one of its steps: sin(theta/2) = h2 omega2 / 2, near h2 omega2 if well
 //                resolved
 //   phi          its phase in a slow step, theta h1/h2
 //   kappa        strength of a slow kick, omega1^2 h1 h2 / sin(theta), near omega1^2 h1 / omega2 if well resolved
-// The map over h1 has the trace 2 cos(phi) - kappa sin(phi); the motion is unstable if its size is above 2, that is for
-// phi in (n pi - 2 atan(kappa/2), n pi), n = 1, 2, ... This is exact if h1 is a multiple of h2; for other fractions p/q
-// of small numbers the map over q h1 = p h2 is multiplied out; for all others the formula stands in.
+// The map over h1 has the trace 2 cos(phi) - kappa sin(phi). The motion is unstable if its magnitude is above 2, that
+// is for phi in (n pi - 2 atan(kappa/2), n pi), n = 1, 2, ... This is exact if h1 is a multiple of h2. For other
+// fractions p/q of small numbers the map over q h1 = p h2 is multiplied out; for all others the formula is an
+// approximation.
 //
-// What this does not do: a mesh has many frequencies and each pair here is but one of them; damping, which closes weak
-// resonances, is left out. For warnings, not for results: the bits of these numbers are not promised.
+// A mesh has many frequencies, and each pair here is only one of them; damping, which suppresses weak resonances, is
+// ignored. Use it for warnings only: the bits of these numbers may differ between machines.
 #pragma once
 
 #include <cmath>
@@ -26,14 +27,14 @@
 
 namespace noli::integrator {
 
-/// Forces of one step, and a frequency that they alone would give what they move.
+/// Forces of one step, and a frequency of the vertices if only these forces acted.
 struct Oscillation {
   double step = 0;   ///< [s], positive
   double omega = 0;  ///< [1/s], positive
 };
 
-/// The trace of the map of position and velocity over slow_steps h1 = fast_steps h2, kicks by multiplying out. Its
-/// determinant is 1: unstable if the trace is above 2 in size.
+/// The trace of the map of position and velocity over slow_steps h1 = fast_steps h2, by multiplying out all kicks. Its
+/// determinant is 1, so it is unstable if the magnitude of the trace is above 2.
 inline double monodromy_trace(const Oscillation& slow, const Oscillation& fast, int slow_steps, int fast_steps) {
   const double unit = slow.step / fast_steps;  // both steps are multiples of it
   double trace = 0;
@@ -91,7 +92,7 @@ inline bool resonant(const Oscillation& slow, const Oscillation& fast) {
 }
 
 /// How slow kicks meet the fast oscillation, if the two together are unstable. Nothing if the first step is not the
-/// longer one, or for oscillations at or beyond their own limit (step * omega >= 2): that is another complaint.
+/// longer one, or for oscillations at or beyond their own limit (step * omega >= 2), which have a warning of their own.
 inline std::optional<Meeting> resonance(const Oscillation& slow, const Oscillation& fast) {
   if (!(slow.step > fast.step) || fast.step * fast.omega >= 2 || slow.step * slow.omega >= 2) return std::nullopt;
   if (!resonant(slow, fast)) return std::nullopt;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scripted vertices: the breakpoints of all paths, in the order in which they happen.
-//
-// What this does not do: it checks no paths (scenes are checked when they are read).
+// Scripted vertices: the breakpoints of all paths, in order of time. Paths are checked when scenes are read.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +12,7 @@
 
 namespace noli::integrator {
 
-/// From a breakpoint on: where a vertex is then, and its velocity until its next breakpoint.
+/// A breakpoint: the position of a vertex then, and its velocity until the next breakpoint.
 template <class S, int Dim>
 struct Turn {
   double time;
@@ -39,7 +37,7 @@ class Timeline {
     std::ranges::sort(turns_, {}, [](const Turn<S, Dim>& turn) { return std::pair(turn.time, turn.vertex); });
   }
 
-  /// Forgets the turns that are not after t.
+  /// Skips the turns that are not after t.
   void skip_to(double t) {
     while (next_ < turns_.size() && turns_[next_].time <= t) ++next_;
   }

@@ -98,7 +98,7 @@ std::optional<NotFinite> Simulation<S, Dim>::find_not_finite(const Stop& stop) {
   } catch (const NotFinite& found) {
     return found;
   }
-  // No force left it: a particle has run out of the numbers while nothing acted on it.
+  // No force caused it: a particle has left the range of doubles while nothing acted on it.
   for (std::size_t i = 0; i < engine_->particles().size(); ++i) {
     if (!engine_->particles()[i].finite()) {
       return NotFinite{engine_->time(), std::nullopt, {}, static_cast<VertexId>(i)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long the steps of forces may be.
+// Computes how long the steps of forces may be.
 //
 // Notation
 //   m_i       mass of vertex i; infinite if pinned or scripted: such vertices do not count below
@@ -9,12 +9,12 @@
 //   Omega_i   of a vertex: 2 sum over the forces of one kind at i of kappa_i
 //   h         of a force: factor * 2 / sqrt(max over its vertices of Omega_i)
 //
-// In a shape without stress, sum kappa_i is a row of a Gershgorin bound on M^-1 Hess V, its blocks taken by their
-// norms: the greatest squared frequency of all forces of the kind is at most the greatest sum. Verlet's step for
-// them is stable up to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
+// In a shape without stress, sum kappa_i is a row of a Gershgorin bound on M^-1 Hess V, with norms for its blocks: the
+// greatest squared frequency of all forces of the kind is at most the greatest sum. Verlet's step for them is stable up
+// to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
 //
-// What this does not do: the bound is that of the shape given, usually the start; stress and large strain add stiffness
-// that it does not see. It knows nothing of resonance between steps (resonance.h).
+// The bound is for the given shape, usually the start; stress and large strain add stiffness that it does not include.
+// For resonance between steps see resonance.h.
 #pragma once
 
 #include <algorithm>
@@ -50,8 +50,8 @@ std::array<S, F::size> squared_frequencies(const F& force, const std::vector<Vec
   return result;
 }
 
-/// A step for each force of a list [s]; infinite for forces that move nothing. x, inverse_mass: one for each vertex, 0
-/// for what is pinned or scripted. `factor`: of safety; 1 gives the limits above which a scene is refused.
+/// A step for each force of a list [s]; infinite for forces that move nothing. x, inverse_mass: by vertex; inverse_mass
+/// is 0 for pinned or scripted ones. `factor`: a safety factor; 1 gives the limits above which a scene is refused.
 template <class F, class S, int Dim>
 std::vector<double> stable_steps(const ForceList<F>& list, const std::vector<Vec<S, Dim>>& x,
                                  const std::vector<S>& inverse_mass, double factor = 0.5) {

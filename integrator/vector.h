@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small vectors of the dynamics: those of the certificates, with the type of numbers first, as forces have it.
+// Small vectors of the dynamics: those of the certificates, with the number type as the first parameter, as in forces.
 #pragma once
 
 #include <array>

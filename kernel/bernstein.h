@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact decided on Bernstein coefficients, with subdivision: for a coplanarity polynomial and its insides
+// Decides contact on Bernstein coefficients, with subdivision: for a coplanarity polynomial and its insides
 // (formula.h).
 //
 // Notation
-//   f                 the coplanarity polynomial, degree n; g_k the insides, of degree 2 (1 in the plane), all in the
-//                     Bernstein basis of a piece of the step and up to a positive factor, the same for all coefficients
-//                     of one polynomial
+//   f                 the coplanarity polynomial, of degree n
+//   g_k               the insides, of degree 2 (1 in the plane). All polynomials are in the Bernstein basis of a piece
+//                     of the step, up to one positive factor per polynomial
 //   certain sign      of a number: +1, -1, or 0 for "not known"
 // On a piece, by the convex hull property of the coefficients:
 //   no contact  when all coefficients of f have one certain sign, or when some g_j is certainly positive and some g_k
@@ -15,9 +15,8 @@
 // When f certainly has exactly one root in the piece (Descartes), a few Newton steps shrink the piece to a sliver
 // around it on which the g_k are judged; otherwise the piece is split where f seems to have its extremum.
 //
-// What this does not do: it never decides that f is zero somewhere without changing sign, nor that a contact lies on
-// the border of a feature. Such queries come out as `unknown`. Newton's method only proposes; what counts are the signs
-// at the ends.
+// It never decides that f is zero somewhere without changing sign, nor that a contact lies on the border of a feature.
+// Such queries come out as `unknown`. Newton's method only proposes; the signs at the ends decide.
 #pragma once
 
 #include <algorithm>
@@ -85,7 +84,7 @@ T value_at(const std::array<T, 4>& c, const T& x) {
   return q0 * y + q1 * x;
 }
 
-/// Where a polynomial of degree 2 or 3 seems to have its extremum in (0, 1), as a multiple of 1/64 away from the ends.
+/// About where a polynomial of degree 2 or 3 has its extremum in (0, 1), as a multiple of 1/64 away from the ends.
 template <std::size_t N>
 double proposed_split(const std::array<double, N>& c) {
   double x = 0.5;
@@ -105,8 +104,8 @@ struct ProposedRoot {
   double slope;  ///< |derivative| near x
 };
 
-/// A root in (0, 1), about; c has opposite signs at the ends. A few safeguarded Newton steps: when one is shorter than
-/// 2^-17, the error left is about its square.
+/// An approximate root in (0, 1); c has opposite signs at the ends. Takes a few safeguarded Newton steps: once one is
+/// shorter than 2^-17, the remaining error is about its square.
 template <std::size_t N>
 ProposedRoot proposed_root(const std::array<double, N>& c) {
   std::array<double, N> a;  // power basis
@@ -136,13 +135,13 @@ ProposedRoot proposed_root(const std::array<double, N>& c) {
   return {x, std::abs(derivative)};
 }
 
-/// The search. Signs knows how sure a number's sign is; it provides
+/// The search. Signs knows how certain the sign of a number is; it provides
 ///   int f(T), int g(k, T)               the certain sign of a coefficient, or 0
 ///   int f_value(T)                      the same for a value computed by value_at
 ///   int g_on(k, coefficients, low, high)  the certain sign of g_k on all of [low, high], or 0
 ///   double center(T)                    any double in the range of the number
-///   double f_noise()                    about how large a value of f is needed for a certain sign
-///   Signs finer()                       the same on a part of the piece, with the rounding of one more subdivision
+///   double f_noise()                    about how large a value of f must be for a certain sign
+///   Signs finer()                       the signs on a part of the piece, with the rounding of one more subdivision
 template <class Piece, class Signs>
 class Search {
  public:
@@ -190,7 +189,7 @@ class Search {
     return left;
   }
 
-  /// What the insides say on the whole piece. Fills in the signs that have become certain.
+  /// The signs of the insides on the whole piece. inside_signs() also fills in those that have become certain.
   struct SignSummary {
     bool positive = false, negative = false, open = false;
 

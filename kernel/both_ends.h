@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A number at both ends of the step, side by side in one register: the first stages do the same to both.
+// A number at both ends of the step, side by side in one register: the first stages treat both ends alike.
 //
 // Every operation is that of double on each of the two, so results do not depend on whether a machine has such
-// registers.
-//
-// What this does not do: comparisons with NaN are false, as for double; min and max of a NaN are unspecified.
+// registers. Comparisons with NaN are false, as for double; min and max of a NaN are unspecified.
 #pragma once
 
 #include <cmath>
@@ -21,14 +19,13 @@ namespace noli {
 
 class BothEnds {
  public:
-  BothEnds() = default;  ///< of no particular value
+  BothEnds() = default;  ///< uninitialised
   BothEnds(double at_t0, double at_t1) : v_(_mm_set_pd(at_t1, at_t0)) {}
   explicit BothEnds(double at_both) : v_(_mm_set1_pd(at_both)) {}
 
   double at_t0() const { return _mm_cvtsd_f64(v_); }
   double at_t1() const { return _mm_cvtsd_f64(_mm_unpackhi_pd(v_, v_)); }
 
-  /// The two exchanged.
   BothEnds swapped() const { return BothEnds(_mm_shuffle_pd(v_, v_, 1)); }
 
   friend BothEnds operator+(BothEnds a, BothEnds b) { return BothEnds(_mm_add_pd(a.v_, b.v_)); }
@@ -49,14 +46,13 @@ class BothEnds {
 
 class BothEnds {
  public:
-  BothEnds() = default;  ///< of no particular value
+  BothEnds() = default;  ///< uninitialised
   BothEnds(double at_t0, double at_t1) : a_(at_t0), b_(at_t1) {}
   explicit BothEnds(double at_both) : a_(at_both), b_(at_both) {}
 
   double at_t0() const { return a_; }
   double at_t1() const { return b_; }
 
-  /// The two exchanged.
   BothEnds swapped() const { return {b_, a_}; }
 
   friend BothEnds operator+(BothEnds x, BothEnds y) { return {x.a_ + y.a_, x.b_ + y.b_}; }

@@ -36,7 +36,7 @@ Dyadic dyadic_of(mpfr_srcptr x) {
   return result;
 }
 
-/// The first number above x at which a rounding to `precision` bits may change: one with a bit more.
+/// The first number above x at which rounding to `precision` bits may change. It has one more bit.
 Dyadic next_border(const Dyadic& x, mpfr_prec_t precision) {
   Mpfr border(precision + 1);
   set(border.value, x, MPFR_RNDU);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Integers and polynomials of the kernel as CGAL's, and back.
+// Converts the kernel's integers and polynomials to and from CGAL's.
 #pragma once
 
 #include <CGAL/Gmpq.h>

@@ -15,16 +15,17 @@ using bernstein::Verdict;
 using filter::Decision;
 using filter::undecided;
 
-/// Bits of a coordinate that the widths in exact_contact.h leave room for, with one and with two limbs.
-/// A difference of coordinates has B + 1 bits, a cross product's coefficient 2 B + 5, a determinant's 3 B + 9; the
-/// largest number in exact_times.h 16 B + 54 in 16 C limbs, 18 B + 57 in 18 C or, at the roots of a cubic with a double
-/// root, 21 B + 59 in 21 C; with the sign.
+/// The most bits B of a coordinate for which the widths in exact_contact.h suffice, with one limb and with two. Bits,
+/// with the sign: a difference of coordinates has B + 1, a cross product's coefficient 2 B + 5, a determinant's 3 B +
+/// 9.
+/// The largest number in exact_times.h has 16 B + 54 in 16 C limbs, or 18 B + 57 in 18 C; at the roots of a cubic with
+/// a double root it has 21 B + 59 in 21 C.
 constexpr int one_limb_bits = 59;
 constexpr int two_limb_bits = 123;
 
 // --- The floating-point stages, by kind of query ---------------------------------------------------------------------
 
-/// Kept out of line, like all later stages: most queries end before it, and should not pay for its registers.
+/// Out of line, like all later stages: most queries end earlier and should not pay for saving its registers.
 template <class Filter, class Query>
 [[gnu::noinline]] Decision bernstein_stage(const Query& query, const filter::Separation& separation,
                                            StageCounters& counters) {
@@ -39,7 +40,7 @@ template <class Filter, class Query>
   return decision;
 }
 
-/// `axis`: along which the configuration looks large, for the stages to come.
+/// Sets `axis`, along which the configuration looks large, for the later stages.
 template <class Filter, class Query>
 Decision filtered(const Query& query, StageCounters& counters, std::size_t& axis) {
   const filter::Separation separation = filter::separate(query);
@@ -59,7 +60,7 @@ Decision float_stages(const EdgeEdge3& query, StageCounters& counters, std::size
   return filtered<filter::EdgeEdgeFilter>(query, counters, axis);
 }
 
-/// The others are rare and cheap to decide exactly.
+/// The other pairs of features are rare and cheap to decide exactly.
 template <FeaturePair Pair, int Dim>
 Decision float_stages(const Query<Pair, Dim>&, StageCounters&, std::size_t&) {
   return undecided;

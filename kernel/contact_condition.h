@@ -7,16 +7,14 @@
 //   Functions         makes a function of a form: a polynomial (AsPolynomials), or a form of fixed width
 //                     (kernel/exact_contact.h)
 //   Time              anything with `int sign(function)`: the sign at that time
-//   equality          a function that is zero at every contact, and not zero throughout; none if there is no such
-//   critical          when there is no equality: functions between whose roots `holds` does not change
-//   transversal       given that it holds: the contact is of codimension one and relatively interior to both features
+//   equality          a function that is zero at every contact and not identically zero, if there is one
+//   critical          if there is no equality: functions between whose roots `holds` does not change
+//   transversal       given that the condition holds: the contact is of codimension one and relatively interior to
+//                     both features
 // A condition provides: equality() (pointer or null), any_critical(visit), holds(time), transversal(time).
 // any_critical() calls visit(function) for one critical function after another until it returns true, and returns that.
 //
-// T is the integer type of the coordinates: Wide<1> and Wide<2> when they fit, which saves most of the time, else
-// Integer.
-//
-// What this does not do: it finds no times.
+// T is the integer type of the coordinates: Wide<1> or Wide<2> if they fit, which saves most of the time, else Integer.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +92,7 @@ class Between {
   bool any_critical(Visit&& visit) const {
     return visit(product_);
   }
-  /// any_critical() where nothing is known of the equality.
+  /// any_critical() for callers that know nothing about the equality.
   template <class Visit>
   bool any_function(Visit&& visit) const {
     return std::ranges::any_of(zero_, std::ref(visit)) || visit(product_);
@@ -149,7 +147,7 @@ class Coincide {
   std::array<decltype(Functions{}(Form<T, 1>{})), Dim> zero_;
 };
 
-/// vertex_face in space: its forms, and what is zero when the configuration is degenerate in a view.
+/// vertex_face in space: its forms, and the function that is zero when the configuration is degenerate in a view.
 template <class T, class Functions>
 struct VertexFace {
   explicit VertexFace(const std::array<Moving<T, 3>, 4>& x) : forms{{x[1] - x[0], x[2] - x[0], x[3] - x[0]}} {}
@@ -183,13 +181,13 @@ struct EdgeEdge {
   formula::EdgeEdge<T> forms;
 };
 
-/// vertex_face and edge_edge in space. Given that the points are coplanar at a time, the features meet iff, in a view
-/// that is not degenerate then, no inside has a sign opposite to that of what is zero when it is. When every view is
-/// degenerate, they meet iff one of the degenerate parts does.
+/// vertex_face and edge_edge in space, at a time when the points are coplanar. If some view is not degenerate at that
+/// time, the features meet iff no inside has the sign opposite to View::degenerate in it. If every view is degenerate,
+/// they meet iff one of the degenerate parts does.
 template <class Problem, class Functions>
 class CodimensionOne {
  public:
-  /// `axis`: along which to look first; any is right, one along which the configuration looks large is faster.
+  /// `axis`: along which to look first. Any axis is correct; one along which the configuration looks large is faster.
   template <class Points>
   explicit CodimensionOne(const Points& x, std::size_t axis = 0)
       : problem_(x), axis_(axis), coplanarity_(Functions{}(problem_.forms.coplanarity())) {}
@@ -199,7 +197,7 @@ class CodimensionOne {
   /// The insides seen along the first axis.
   const auto& insides() { return view(0).insides; }
 
-  /// The functions of the first view that is not degenerate throughout; if all are, those of the parts.
+  /// Visits the functions of the first view that is not degenerate throughout; if all are, those of the parts.
   template <class Visit>
   bool any_critical(Visit&& visit) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -228,7 +226,7 @@ class CodimensionOne {
 
   using Insides = decltype(functions_of<Functions>(std::declval<Problem>().forms.insides(0)));
 
-  /// Seen along one axis: the insides, and what is zero when the configuration is degenerate in this view.
+  /// Seen along one axis: the insides, and a function that is zero when the configuration is degenerate in this view.
   struct View {
     Insides insides;
     typename Insides::value_type degenerate;
@@ -277,7 +275,7 @@ class CodimensionOne {
   std::optional<decltype(std::declval<Problem>().degenerate_parts())> parts_;
 };
 
-/// The condition of a pair of features whose points move as x. `axis`: as CodimensionOne has it.
+/// The condition of a pair of features whose points move as x. `axis`: as for CodimensionOne.
 template <FeaturePair Pair, class Functions = AsPolynomials, class T, std::size_t Dim, std::size_t N>
 auto make(const std::array<Moving<T, Dim>, N>& x, [[maybe_unused]] std::size_t axis = 0) {
   if constexpr (Pair == FeaturePair::vertex_face) {

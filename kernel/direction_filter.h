@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first two stages, by which most pairs of features that are apart are found to be: an axis on which they are in
-// the same strict order at both ends of the step, and the direction normal to both at mid-time.
+// The first two stages, which find most pairs apart: an axis on which the features are in the same strict order at both
+// ends of the step, and the direction normal to both features at mid-time.
 //
 // Notation
 //   u = 2^-53         half an ulp of 1; arithmetic rounds to nearest and is not contracted
-//   n                 the direction, any vector of doubles; n . (b - a) > 0 for all points a of the one feature and
-//                     b of the other at both ends separates them all the time, because it is linear in between
+//   n                 the direction, any vector of doubles. If n . (b - a) > 0 at both ends, for all points a of one
+//                     feature and b of the other, n separates them during the whole step: it is linear in between
 //   m                 the largest magnitude of a computed difference of coordinates
 // Error bound: a computed difference has a relative error of u, so n . d is off by at most 11u |n| m (components'
-// maxima) to first order, and a sum of three of these by 48u |n| m; 16u and 60u are used, which covers the higher
-// orders and the rounding of the bound. Nothing overflows, and nothing that underflows matters, when |n| > 2^-600 and m
-// is within 2^-300 and 2^300.
+// maxima) to first order, and a sum of three of these by 48u |n| m. The code uses 16u and 60u, which covers the higher
+// orders and the rounding of the bound. Nothing overflows, and underflow does not matter, when |n| > 2^-600 and m is
+// between 2^-300 and 2^300.
 //
-// What this does not do: a pair that it does not separate may still be apart.
+// A pair that it does not separate may still be apart.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,8 @@ using formula::Vec;
 
 constexpr double u = 0x1p-53;
 
-// All but greatest_size, which is against overflow, are in theorems of proofs/gappa; a test compares with Constants.v.
+// proofs/gappa has theorems about all of these except greatest_size, which prevents overflow. A test compares them with
+// Constants.v.
 constexpr double least_normal = 0x1p-600;  // of |n|
 constexpr double least_size = 0x1p-300;    // of m
 constexpr double greatest_size = 0x1p300;
@@ -91,7 +92,7 @@ double magnitude(const Vec<double, Dim>& x) {
 }
 
 /// The three differences that decide a query (d0, d1, d2 or u, v, w of formula.h), a direction normal to both features
-/// at mid-time, and whether it separates them.
+/// at mid-time, and whether that direction separates them.
 struct Separation {
   std::array<EndVectors, 3> differences;
   Vec<double, 3> normal;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The distance of two moving features as a minimum over pairs of their faces (corners, edges, interior).
+// The distance of two moving features, as a minimum over pairs of their faces (corners, edges, interior).
 //
 // Notation
 //   part              a pair of faces, one of each feature: vertex and vertex, vertex and line, vertex and plane, line
 //                     and line
 //   positive          > 0 when the part is not degenerate
-//   inside            all >= 0 when the points of the two flats that are nearest to each other belong to the faces
-//   excess            sign of (distance of the flats - eta), given that the part is not degenerate
+//   inside            all >= 0 when the nearest points of the two flats belong to the faces
+//   excess            has the sign of (distance of the flats - eta), given that the part is not degenerate
 // All are polynomials in t of degree at most 6. The features are within eta of each other iff some part is not
 // degenerate, inside, and has no excess: a degenerate face is the union of its edges, and parallel edges are nearest to
 // each other at an end.

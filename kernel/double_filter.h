@@ -9,7 +9,7 @@
 // Error bounds, to first order in u; the constants used are a few per cent larger, which covers the higher orders and
 // the rounding of the bounds themselves. A computed difference of two coordinates has a relative error of u.
 //   cross product     at one end, a component is at most 2 m_a m_b, its error 8u m_a m_b (each of two products
-//                     carries 3u, the subtraction u of the result); the middle coefficient is at most 4 m_a m_b,
+//                     has 3u, the subtraction u of the result); the middle coefficient is at most 4 m_a m_b,
 //                     its error 20u m_a m_b
 //   scaled inside     at most 4 m_a m_b, error 20u m_a m_b. c - w x u: bounds add up, and the subtraction adds 4u
 //                     of each
@@ -20,10 +20,10 @@
 //   inside at t       a vector at time t is off by 4u m, an inside by 20u m_a m_b (c - w x u: 22u of the sum);
 //                     while t moves by r, a vector moves by at most 2 r m, an inside by (8 r + 8 r^2) m_a m_b,
 //                     which is below 9 r m_a m_b for r < 1/8
-// Products neither overflow nor lose bits to underflow that matter when all m_x are within 2^-300 and 2^300, which is
-// tested.
+// When all m_x are between 2^-300 and 2^300, which usable() tests, products do not overflow, and what they lose to
+// underflow does not matter.
 //
-// What this does not do: it does not decide coplanar, touching or otherwise degenerate queries; it says `unknown`.
+// Coplanar, touching or otherwise degenerate queries come out as `unknown`.
 #pragma once
 
 #include <algorithm>
@@ -41,15 +41,15 @@ namespace noli::filter {
 using bernstein::Verdict;
 using formula::Moving;
 
-// The bounds, in units of u and of the product of the m_x concerned; proved in proofs/gappa, whose Constants.v has the
-// same numbers. A test compares.
+// The bounds, in units of u times the product of the m_x concerned. They are proved in proofs/gappa; a test compares
+// them with Constants.v there.
 constexpr double coplanarity_units = 176;        // of a scaled coefficient of f
 constexpr double coplanarity_level_units = 168;  // added by de Casteljau
 constexpr double inside_units = 21;
 constexpr double inside_difference_units = 25;  // of each of the two products of an inside c - w x u
 constexpr double inside_level_units = 25;
 
-/// Certain signs of doubles with known error bounds (see bernstein.h for what is asked of it).
+/// Certain signs of doubles with known error bounds: the Signs of bernstein.h.
 template <std::size_t Insides>
 struct DoubleSigns {
   double f_bound;  ///< of a scaled coefficient of f
@@ -90,8 +90,8 @@ inline EndVectors swapped(const EndVectors& x) { return {x[0].swapped(), x[1].sw
 
 inline double sum_of_ends(BothEnds x) { return x.at_t0() + x.at_t1(); }
 
-/// det(a, b, c), scaled. The formula is that of formula.h (a form's middle coefficients take one factor from each
-/// end), done for both ends at once.
+/// det(a, b, c), scaled. It is the formula of formula.h (a form's middle coefficients take one factor from each end),
+/// evaluated for both ends at once.
 inline Cubic coplanarity(const EndVectors& a, const EndVectors& b, const EndVectors& c) {
   const EndVectors ends = formula::cross(a, b), mixed = formula::cross(a, swapped(b));
   const EndVectors middle = constant({sum_of_ends(mixed[0]), sum_of_ends(mixed[1]), sum_of_ends(mixed[2])});
@@ -124,8 +124,8 @@ class PlaneView {
     return {sum_of_ends(x[i_] * weights_), sum_of_ends(x[j_] * weights_)};
   }
 
-  /// Whether three points are collinear in this view all the time because they have one of its two coordinates in
-  /// common at both ends. The inside that they make is then zero throughout, exactly.
+  /// Whether three points share one of the view's two coordinates at both ends. They are then collinear in this view
+  /// all the time, and their inside is exactly zero throughout.
   template <class Query>
   bool share_a_coordinate(const Query& q, const std::array<std::size_t, 3>& points) const {
     return share(q.x_t0, q.x_t1, points, i_) || share(q.x_t0, q.x_t1, points, j_);
@@ -144,8 +144,8 @@ class PlaneView {
   BothEnds weights_;
 };
 
-/// Gathers the certain signs of insides. One that is zero throughout does not keep the others from deciding: when these
-/// have the same strict sign the view is not degenerate, and the contact is on the border of a feature.
+/// Collects the certain signs of insides. The others can decide even if one is zero throughout: if they have the same
+/// strict sign, the view is not degenerate, and the contact is on the border of a feature.
 struct InsideSigns {
   bool some_positive = false, some_negative = false, all_positive = true, all_negative = true;
 
@@ -164,8 +164,8 @@ struct InsideSigns {
   }
 };
 
-/// The common part of both filters. `separation`: of the query; its normal tells the axis along which to look.
-/// Both must outlive the filter.
+/// The common part of both filters. `separation`: of the query; its normal decides the axis along which to look. Both
+/// must outlive the filter.
 template <class Query>
 class FourPoints {
  public:
@@ -264,10 +264,10 @@ class EdgeEdgeFilter : public FourPoints<EdgeEdge3> {
 
 // --- Stage: bernstein ------------------------------------------------------------------------------------------------
 
-/// How often a piece of the step may be split. After three, what is left is nearly always degenerate.
+/// How often a piece of the step may be split. Queries still open after three splits are nearly always degenerate.
 constexpr int subdivision_depth = 3;
 
-/// Root by root: the quick way, for what is not degenerate. `near_border` as in RootSearch.
+/// Root by root: the quick way for queries that are not degenerate. `near_border` as in RootSearch.
 template <class Filter>
 Decision search_roots(const Filter& filter, bool& near_border) {
   const double volume = filter.volume() * u;

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact decided in exact integers of fixed width.
+// Decides contact in exact integers of fixed width.
 //
 // Notation (formula.h)
 //   C                 limbs of a coordinate; a form of degree 2 then takes 2 C, one of degree 3 takes 3 C
 //   f                 the coplanarity form
 //   time              an object of exact_times.h, with the exact sign of quadratic forms
-// What contact is at one time is in contact_condition.h. The features meet at some time of the step iff they meet at an
-// end, or at a root of f inside, or, when f is zero throughout, at a root inside of one of the forms on whose signs the
-// answer depends: the set of contact times is closed, and between such roots nothing changes.
+// contact_condition.h defines contact at one time. The features meet at some time of the step iff they meet at an end
+// or at a root of f inside the step. If f is zero throughout, the roots of the forms whose signs decide take its place:
+// the set of contact times is closed, and between such roots nothing changes.
 //
-// What this does not do: when double precision, applied to the exact coefficients of a cubic f, cannot tell its roots
-// apart and none is double, or when it cannot tell a root of f from one of an inside's beyond 2^-44, the answer is
-// `unknown`.
+// The answer for a cubic f is `unknown` if double precision on its exact coefficients cannot tell its roots apart and
+// none is double, if a root of f may be within 2^-44 of a root of an inside, or if an inside has a double root.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +44,8 @@ std::array<double, N> rounded(const std::array<T, N>& form) {
   return bernstein::scaled_coefficients(result);
 }
 
-/// A quadratic form, and its coefficients rounded to double: these mostly suffice for the sign at a time that is known
-/// to 2^-45, and spare the long products.
+/// A quadratic form, and its coefficients rounded to double. These usually suffice for the sign at a time known to
+/// 2^-45, and avoid the long products.
 template <std::size_t L>
 class SignedForm {
  public:
@@ -57,8 +56,8 @@ class SignedForm {
   const Form<Wide<L>, 2>& exact() const { return exact_; }
   bool is_zero() const { return exact::is_zero(exact_); }
 
-  /// The sign at all times within 2^-45 of t, if it is certain. Precondition: t in [0, 1], or not a number: then
-  /// nothing is certain.
+  /// The sign at all times within 2^-45 of t, if it is certain. Precondition: t in [0, 1], or NaN, for which nothing is
+  /// certain.
   std::optional<int> certain_sign(double t) const {
     const double value = bernstein::value_at(rounded_, t);
     if (value > bound_) return 1;
@@ -89,7 +88,7 @@ struct AsForms {
   }
 };
 
-/// A time, and about when it is.
+/// A time, and its approximation in double.
 template <class Time>
 struct At {
   const Time& time;
@@ -188,7 +187,7 @@ class CodimensionOne {
     return false;
   }
 
-  /// Root by root in double, now on the exact coefficients; where that does not tell the sign of an inside at a root,
+  /// Root by root in double, now on the exact coefficients; signs of insides at a root that stay unclear are computed
   /// exactly. Error bounds: a coefficient is rounded to 2^-51 of itself and multiplied once; a run of de Casteljau has
   /// three levels of 3 * 2^-53.
   Decision decide_cubic(const Cubic<C>& f) {
@@ -218,8 +217,8 @@ class CodimensionOne {
     return open || positive == negative ? Verdict::unknown : Verdict::contact;
   }
 
-  /// The sign of g at a root alpha of f: that of g before alpha, changed once by each root of g in between. Whether a
-  /// root of g comes before alpha is told by the sign of f there.
+  /// The sign of g at a root alpha of f: the sign of g at root.low, changed once by each root of g in between. The sign
+  /// of f at a root of g tells whether it comes before alpha.
   static std::optional<int> sign_at_root(const SignedForm<2 * C>& g, const Cubic<C>& f, const RootOfCubic& root) {
     constexpr double margin = 0x1p-44;  // far above the error of an approximate root
     if (is_zero(g.exact())) return 0;
@@ -261,7 +260,7 @@ class CodimensionOne {
     return contact_in(around(time.approximate()));
   }
 
-  /// Drops the highest limb(s) that a product with a small constant added; the bits for it are there.
+  /// Drops the highest limb(s) that a product with a small constant added; the others have enough bits for it.
   static Wide<6 * C> narrowed(const Wide<7 * C>& x) {
     Wide<6 * C> result;
     for (std::size_t i = 0; i < 6 * C; ++i) result.limb(i) = x.limb(i);
@@ -271,7 +270,8 @@ class CodimensionOne {
   Condition& condition_;
 };
 
-/// Decides the other problems. Contacts begin only where an equality holds, or a critical form vanishes, or at t = 0.
+/// Decides the other problems. Contacts begin only at t = 0, where an equality holds, or where a critical form
+/// vanishes.
 template <class Condition>
 Decision decide_others(Condition& condition) {
   if (touches(condition, EndTime{false})) return contact_in({0, 0});

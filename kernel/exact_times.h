@@ -9,12 +9,12 @@
 //   p                 the form that vanishes, D = p1^2 - 4 p0 p2
 //   g                 a form of degree 2 or 3 whose sign is asked for
 //
-// Widths: for coefficients of p below 2^P and of g below 2^G in magnitude, the largest number that arises in a sign is
-// below 2^(4 P + 2 G + 7) for a g of degree 2, and 2^(6 P + 2 G + 7) for one of degree 3 (at a RationalTime with s and
-// t below 2^P, less). With p in W and g in L limbs it is computed in 4 W + 2 L and 6 W + 2 L limbs.
+// Widths: let the coefficients of p be below 2^P and those of g below 2^G in magnitude. The largest number in the
+// computation of a sign is below 2^(4 P + 2 G + 7) for a g of degree 2, and below 2^(6 P + 2 G + 7) for one of degree
+// 3;
+// less at a RationalTime with s and t below 2^P. With p in W and g in L limbs it takes 4 W + 2 L and 6 W + 2 L limbs.
 //
-// What this does not do: no time at which only a polynomial of degree 3 vanishes. It has no closed form within the
-// numbers at hand.
+// Times at which only a polynomial of degree 3 vanishes are not here: they have no closed form in these numbers.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,7 @@ struct EndTime {
   double approximate() const { return at_t1 ? 1 : 0; }
 };
 
-/// The rational time t / (s + t), s > 0. Inside the step iff t > 0; signs may be asked of others too.
+/// The rational time t / (s + t), s > 0. It is inside the step iff t > 0; sign() works for other times too.
 template <std::size_t W>
 struct RationalTime {
   Wide<W> s, t;
@@ -53,7 +53,7 @@ struct RationalTime {
     const auto ss = s * s, st = s * t, tt = t * t;
     return (g[0] * (ss * s) + g[1] * (ss * t) + g[2] * (st * t) + g[3] * (tt * t)).sign();
   }
-  /// Not a number when s or t is beyond the range of double; callers then take the exact way.
+  /// NaN when s or t is beyond the range of double; callers then take the exact way.
   double approximate() const {
     const double a = s.approximate(), b = t.approximate(), sum = a + b;
     return std::isfinite(sum) ? b / sum : std::numeric_limits<double>::quiet_NaN();
@@ -97,7 +97,7 @@ struct QuadraticTime {
     return sign_x * (x * x - h1 * h1 * discriminant).sign();
   }
 
-  /// Without cancellation: of the two expressions of a root, the one whose terms have the same sign.
+  /// Avoids cancellation: of the two expressions of a root, takes the one whose terms have the same sign.
   double approximate() const {
     const double p0 = p[0].approximate(), p1 = p[1].approximate(), p2 = p[2].approximate();
     const double r = root * std::sqrt(discriminant.approximate());

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
+// Computes until when certificates hold.
+//
 // Notation: a line, seen along n, is (offset + slope t) / scale with scale > 0. The certificate fails where the line of
 // n . (a - b) - g is not positive.
 //
-// Stages of two points: intervals say that it has failed or that it never will; the quotient needs an exact ring, as it
-// is rounded exactly.
+// Stages for two points: intervals decide that it has already failed or never will. Otherwise the quotient needs an
+// exact ring, as it is rounded exactly.
 #include "kernel/failure_time.h"
 
 #include <CGAL/Gmpzf.h>
@@ -63,7 +65,7 @@ T value_at(const Line<T>& line, double t) {
   return line.offset + line.slope * T(t);
 }
 
-/// `from` or infinity when intervals can tell.
+/// `from` or infinity if intervals can decide.
 template <int Dim, class A, class B>
 std::optional<double> filtered(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
   const Interval::Protector upward;
@@ -85,7 +87,8 @@ double of_order(std::int64_t order) {
   return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order - 1);
 }
 
-/// The last double at which `holds` is true; it is true at `from`, and from some later time on false for good. `guess`:
+/// The last double at which `holds` is true. Precondition: it is true at `from`, and once false it stays false.
+/// `guess`:
 /// near that time, or meaningless.
 template <class Holds>
 double last_time(const Holds& holds, double from, double guess) {
@@ -105,7 +108,7 @@ double last_time(const Holds& holds, double from, double guess) {
   return of_order(low);
 }
 
-/// Until when a line is not negative, rounded down. Precondition: at `from` it is not.
+/// Until when a line is not negative, rounded down. Precondition: it is not negative at `from`.
 double last_time(const Line<Exact>& line, double from) {
   if (sign(line.slope) >= 0) return infinity;
   const double guess = CGAL::to_double(line.offset) / CGAL::to_double(-line.slope);

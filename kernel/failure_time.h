@@ -6,24 +6,24 @@
 // Notation
 //   Ray             x(t) = x + (t - t_i) v: where an integrator extrapolates to from its last event
 //   MotionSegment   the line through (t0, x0) and (t1, x1), t0 < t1: what was recorded
-//   wall            n . x = s(t) +- half, s(t) = offset + rate (t - since), as in certificates/near_pair.h; |n| may be
-//                   anything
+//   wall            n . x = s(t) +- half, s(t) = offset + rate (t - since), as in certificates/near_pair.h; n need not
+//                   be a unit vector
 //   ball            of a radius about a centre that moves as a ray
 // Points and centres move on lines over the reals, without rounding. The failure time is rounded down: an event may
 // come early, never late.
 //
-// What is beyond a wall at two times is so between them, as that is a linear condition; the same is true of a ball, as
+// A point beyond a wall at two times is beyond it in between, as the condition is linear. The same holds for a ball, as
 // the distance from its centre is a convex function of time.
 //
-// Stages of walls and balls: doubles with a bound, CGAL's intervals, CGAL's exact numbers. The bound: 2^-48 = 32 u of
-// the same formula over magnitudes, in which each product is 2^-1022 larger. A result carries at most 15 roundings or
-// underflows of products on the way. For a ball: a coordinate of d has 5, of a difference of times, a product (2), a
-// sum and a difference; its square twice that and 2 of its own; and there are 3 sums. 32 - 15 = 17 u are left for the
-// bound's own rounding, which is about 1 u.
+// Stages for walls and balls: doubles with a bound, CGAL's intervals, CGAL's exact numbers. The bound is 2^-48 = 32 u
+// of the same formula over magnitudes, in which each product is 2^-1022 larger. A result has at most 15 roundings or
+// underflows of products. For a ball: a coordinate of d has 5, from a difference of times, a product (2), a sum and a
+// difference; its square has twice that and 2 of its own; and there are 3 sums. 32 - 15 = 17 u are left for the bound's
+// own rounding, which is about 1 u.
 //
-// Who asks: certificates/decisions.h, for walls and balls, behind a static bound of its own.
+// certificates/decisions.h asks for walls and balls, after a static bound of its own.
 //
-// What this does not do: it does not know that a ray ends at the next event or a segment at its last breakpoint.
+// A ray or a segment counts as endless here: the caller knows the next event or the last breakpoint.
 #pragma once
 
 #include <cmath>
@@ -65,9 +65,8 @@ struct MotionSegment {
   Point<Dim> x1;
 };
 
-/// The largest double that is not greater than the least t >= from at which n . (a(t) - b(t)) <= g; `from` if that is
-/// so there; +infinity if it never is. a, b: Ray<Dim> or MotionSegment<Dim>. Preconditions: all numbers are finite; t0
-/// < t1 in a segment.
+/// The least t >= from at which n . (a(t) - b(t)) <= g, rounded down to double; `from` if it is so at `from`; +infinity
+/// if it never is. a, b: Ray<Dim> or MotionSegment<Dim>. Preconditions: all numbers are finite; t0 < t1 in a segment.
 template <class A, class B>
 double failure_time(const A& a, const B& b, const Point<A::dimension>& n, double g, double from);
 
@@ -99,7 +98,7 @@ T room(const Ray<Dim>& p, const MovingWall<Dim>& wall, double s) {
   return (wall.above ? height : -height) - T(wall.half);
 }
 
-/// Of the squares of a ball's radius and the distance from its centre at time s, by how much the first is larger.
+/// The square of a ball's radius less the square of the distance from its centre at time s.
 template <class T, int Dim>
 T room(const Ray<Dim>& p, const MovingBall<Dim>& ball, double s) {
   const Ray<Dim>& c = ball.centre;
@@ -130,14 +129,14 @@ bool holds_at(const Ray<Dim>& p, const Certificate& certificate, double s) {
   return detail::holds_exactly(p, certificate, s);
 }
 
-/// Whether it holds all the time from `from` to s. Precondition: from <= s.
+/// Whether a certificate holds throughout [from, s]. Precondition: from <= s.
 template <int Dim, class Certificate>
 bool holds_until(const Ray<Dim>& p, const Certificate& certificate, double from, double s) {
   return holds_at(p, certificate, s) && holds_at(p, certificate, from);
 }
 
-/// The end of the time from `from` on during which it holds, rounded down; `from` if it does not hold there; +infinity
-/// if there is no end.
+/// Until when a certificate holds without a break from `from` on, rounded down; `from` if it does not hold there;
+/// +infinity if it always holds.
 template <int Dim, class Certificate>
 double failure_time(const Ray<Dim>& p, const Certificate& certificate, double from);
 

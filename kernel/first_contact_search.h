@@ -6,8 +6,7 @@
 //   condition  as in kernel/contact_condition.h, over the time [0, 1] of a step
 //   t          a time at which the condition holds, or which is asked about
 //
-// What this does not do: it does not care where the integers come from (include/noli/time_of_impact.h: a query;
-// kernel/motion.h: pieces of world lines).
+// The integers come from a query (include/noli/time_of_impact.h) or from pieces of world lines (kernel/motion.h).
 #pragma once
 
 #include <algorithm>
@@ -26,7 +25,7 @@ struct At {
   int sign(const Polynomial& p) const { return t.sign_of(p); }
 };
 
-/// An instant after t that is as near as it need be.
+/// An instant after t, as near as needed.
 struct JustAfter {
   AlgebraicNumber& t;
 
@@ -61,7 +60,7 @@ std::optional<FirstContact> first_among_roots(Condition& condition, const Polyno
   return std::nullopt;
 }
 
-/// Where contact can begin when no equality has to hold, ascending.
+/// The times at which contact can begin if there is no equality, ascending.
 template <class Condition>
 std::vector<AlgebraicNumber> critical_times(Condition& condition) {
   std::vector<AlgebraicNumber> times = {AlgebraicNumber(Dyadic::from_integer(1))};

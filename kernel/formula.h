@@ -18,7 +18,7 @@
 //                     edge_edge: with c = u x v, the numerators of the parameters of the crossing point and of their
 //                     complements.)
 //
-// What this does not do: it decides nothing. A sign that is zero or unknown is the business of the caller.
+// Callers handle signs that are zero or unknown.
 #pragma once
 
 #include <array>

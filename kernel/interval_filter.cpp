@@ -11,7 +11,7 @@ namespace {
 using Interval = CGAL::Interval_nt<false>;  // the rounding mode is switched once per query, not per operation
 using formula::Moving;
 
-/// Certain signs of intervals (see bernstein.h for what is asked of it).
+/// Certain signs of intervals: the Signs of bernstein.h.
 struct IntervalSigns {
   static int sign(const Interval& x) { return (x.inf() > 0) - (x.sup() < 0); }
   static int f(const Interval& x) { return sign(x); }
@@ -38,7 +38,7 @@ Moving<Interval, Dim> difference(const Query<Pair, Dim>& q, std::size_t to, std:
   return result;
 }
 
-/// Whether no product can overflow: an infinite bound times zero would not be a number.
+/// Whether no product can overflow: an infinite bound times zero would be NaN.
 template <FeaturePair Pair, int Dim>
 bool in_range(const Query<Pair, Dim>& q) {
   double largest = 0;

@@ -3,8 +3,8 @@
 // The stage between exact integers of fixed width and GMP: Bernstein coefficients in CGAL::Interval_nt, for queries
 // whose exponents do not fit the fixed width, or that double precision could not settle.
 //
-// What this does not do: like every filter it is silent about degenerate queries. It needs directed rounding to work
-// (kernel/arithmetic/rounding.h) and must not be called when it does not.
+// Like every filter, it is silent about degenerate queries. Do not call it when directed rounding does not work
+// (kernel/arithmetic/rounding.h).
 #pragma once
 
 #include <noli/query.h>

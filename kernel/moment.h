@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A time on the axis of doubles, exact: where a contact begins in a run, as an algebraic number that compares with
-// those of other pieces of the run.
+// The exact time at which a contact begins in a run, as an algebraic number that compares across pieces of the run.
 //
 // Notation
 //   window   [T0, T1], T0 < T1 doubles; moments compare only within the same window
 //   sigma    (t - T0) / 2^e, with e such that T1 - T0 <= 2^e: in [0, 1] for t in the window
-//   s        the time within a piece [begin, end] of the window, as kernel/motion.h has it
+//   s        the time within a piece [begin, end] of the window, as in kernel/motion.h
 //
-// sigma is a dyadic affine function of s, so a root of p(s) is one of an integer polynomial in sigma, and an isolating
-// interval stays one.
-//
-// What this does not do: no arithmetic.
+// sigma is a dyadic affine function of s. So a root of p(s) is a root of an integer polynomial in sigma, and isolating
+// intervals stay isolating.
 #pragma once
 
 #include <compare>
@@ -22,7 +19,7 @@
 
 namespace noli {
 
-/// The time that moments are measured in. Preconditions: finite, begin < end.
+/// The time to which moments are relative. Preconditions: finite, begin < end.
 struct Window {
   double begin, end;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points of a motion query (kernel/motion.h) as integers: each over its piece, all of them in one unit.
-//
-// What this does not do: it decides nothing.
+// Points of a motion query (kernel/motion.h) as integers in one unit, each over its piece.
 #pragma once
 
 #include <array>
@@ -64,7 +62,7 @@ void multiply(formula::Moving<Integer, Dim>& point, const Integer& factor) {
   }
 }
 
-/// The points of a query over its piece, and a length beside them, in integers of one unit.
+/// The points of a query over its piece, and a length, as integers in one unit.
 template <FeaturePair Pair, int Dim>
 struct IntegerMotion {
   std::array<MovingPoint<Dim>, point_count(Pair)> points;

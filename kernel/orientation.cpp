@@ -2,8 +2,7 @@
 //
 // Orientation, in three stages: double with an error bound (Shewchuk 1997, first stage), integers of fixed width, GMP.
 //
-// The error bounds are twice Shewchuk's, so that they hold in every rounding mode; what underflow may add is bounded
-// apart.
+// The error bounds are twice Shewchuk's, so that they hold in every rounding mode. Underflow has a bound of its own.
 #include <cmath>
 
 #include "kernel/arithmetic/rounding.h"

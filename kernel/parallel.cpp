@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A back end only has to call a *lane* on several threads at once; every lane takes the next index until none is left.
-// What to do with indices and exceptions is thus written once, for both.
+// The back ends of parallel.h. A back end only calls a *lane* on several threads at once; each lane takes the next
+// index until none is left. So indices and exceptions are handled once, for both back ends.
 #include "kernel/parallel.h"
 
 #include <algorithm>
@@ -81,8 +81,8 @@ void run_std(std::size_t count, int threads, const Task& task) {
 }
 
 #ifdef NOLI_PARALLEL_TBB
-/// Arenas that no loop is in. TBB frees one only once all its threads have looked away, so on a busy machine new ones
-/// for each loop would pile up: 7 KB for each step of a sequence.
+/// Arenas that no loop uses at the moment. TBB frees an arena only after all its threads have left it, so on a busy
+/// machine a new one for each loop would pile up: 7 KB for each step of a sequence.
 class Arenas {
  public:
   using Arena = std::unique_ptr<tbb::task_arena>;
@@ -106,7 +106,7 @@ class Arenas {
   std::map<int, std::vector<Arena>> free_;  ///< by their number of lanes
 };
 
-/// Never destroyed: TBB may be gone before.
+/// Never destroyed: TBB may be gone by then.
 Arenas& arenas() {
   static Arenas& all = *new Arenas;
   return all;
@@ -118,9 +118,8 @@ void run_tbb(std::size_t count, int threads, const Task& task) {
   if (lanes <= 1) {
     loop.lane();
   } else {
-    // More threads than the machine has must be allowed for explicitly. Controls alive at once take the least of their
-    // values, so none is made that would hold back a loop elsewhere or within this one, which may have more tasks; the
-    // arena is what limits this one.
+    // More threads than the machine has must be allowed explicitly. The least value of all live controls holds, so this
+    // one must not limit loops elsewhere or nested in this one, which may have more tasks. The arena limits this loop.
     auto allow =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(std::max(wanted(threads), hardware_threads())));
@@ -132,7 +131,7 @@ void run_tbb(std::size_t count, int threads, const Task& task) {
       });
       arenas().give_back(lanes, std::move(arena));
     } catch (...) {
-      // Memory has run out within TBB, which then may wait for ever when a control goes: it stays.
+      // Memory has run out within TBB. Destroying a control could then wait forever, so it is leaked.
       static_cast<void>(allow.release());
       throw;
     }

@@ -7,12 +7,12 @@
 //   f                 the cubic, as scaled Bernstein coefficients on a piece of the step; a sign of a coefficient
 //                     is *certain* when its magnitude is above `bound`
 //   sliver            the part of the piece that is within `reach` of x; f has certain, opposite signs at its ends,
-//                     and just one root in it
+//                     and exactly one root in it
 // One certain change of sign (Descartes) is one root: a few safeguarded steps of Halley's method propose where, and the
 // signs at the ends of a sliver prove it. Two roots are separated by splitting where f seems to have its extremum.
 //
-// What this does not do: it says `unknown` when f is nearly zero at an end of the step or a root is nearly double;
-// bernstein.h looks at more.
+// The verdict is `unknown` when f is nearly zero at an end of the step or a root is nearly double; bernstein.h decides
+// more of these.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ struct Root {
   double reach;
 };
 
-/// About where the one root in (0, 1) is: after the first step that is no longer than `last_step`. The error left is
-/// about the cube of that step, so its square is a generous reach.
+/// Approximates the one root in (0, 1); stops after the first step that is no longer than `last_step`. The remaining
+/// error is about the cube of that step, so its square is a generous reach.
 inline Root halley(const Cubic& c, double last_step) {
   const double d0 = c[1] - c[0], d1 = c[2] - c[1], d2 = c[3] - c[2], e0 = d1 - d0;
   const double a0 = c[0], a1 = 3 * d0, a2 = 3 * e0, a3 = (d2 - d1) - e0;
@@ -54,7 +54,7 @@ inline Root halley(const Cubic& c, double last_step) {
     high = before_root ? high : x;
     const double square = df * df, curvature = f * half_ddf;
     double next = x - f * df / (square - curvature);
-    // Near an extremum of f the step is short without being near a root.
+    // Near an extremum of f the step is short although no root is near.
     if (!(next >= low && next <= high) || square < std::abs(curvature)) next = 0.5 * (low + high);
     step = next - x;
     x = next;
@@ -69,8 +69,9 @@ struct RoundedCubic {
   double level;  ///< of what one run of de Casteljau adds to that
 };
 
-/// The search. inside(low, high, f_before) is asked about each root, in ascending order until it answers `contact`: the
-/// root is between low and high, no other root is (but within 2^-49 beyond), and f_before is the sign of f before it.
+/// The search. It calls inside(low, high, f_before) for each root, in ascending order, until that returns `contact`.
+/// The root is between low and high, no other root is (except within 2^-49 beyond), and f_before is the sign of f
+/// before it.
 template <class Inside>
 class RootSearch {
  public:
@@ -81,7 +82,7 @@ class RootSearch {
     return {verdict, enclosure_};
   }
 
-  /// After `unknown`: whether that is because at some root the features meet on, or next to, the border of one.
+  /// After `unknown`: whether the reason is that at some root the features meet on or near the border of one.
   bool near_border() const { return near_border_; }
 
  private:
@@ -106,7 +107,7 @@ class RootSearch {
     return after == Verdict::apart ? before : after;
   }
 
-  /// The piece has one root. A rough sliver mostly does; narrower ones are tried when it was too wide or missed the
+  /// The piece has one root. A rough sliver usually suffices; narrower ones follow if it was too wide or missed the
   /// root.
   Verdict settle_root(const Cubic& f, double bound, double begin, double width) {
     const double value_bound = bound + cubic_.level;
@@ -130,7 +131,7 @@ class RootSearch {
   Verdict settle_sliver(const Cubic& f, const Root& root, double value_bound, double begin, double width) {
     const double low = std::max(0.0, root.x - root.reach), high = std::min(1.0, root.x + root.reach);
     if (!(high - low < 0.125))
-      return Verdict::unknown;  // nothing would be certain on it, and error bounds are for short ones
+      return Verdict::unknown;  // nothing would be certain on it, and the error bounds hold only for short slivers
     const int before = sign(bernstein::value_at(f, low), value_bound);
     if (before * sign(bernstein::value_at(f, high), value_bound) >= 0) return Verdict::unknown;
     constexpr double outward = 0x1p-50;  // above the rounding of times, which stay in [0, 1]

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything comes down to orientations and comparisons.
+// Reduces every predicate to orientations and comparisons.
 //
-// Notation: a view drops one coordinate. A view in which coplanar simplices do not lose a dimension is one-to-one on
-// their plane, so that the question is one in the plane.
+// Notation: a view drops one coordinate. If coplanar simplices do not lose a dimension in a view, it is one-to-one on
+// their plane, and the question becomes planar.
 #include "kernel/static_predicates.h"
 
 #include <algorithm>
@@ -83,15 +83,15 @@ bool one_strict_side(const std::array<int, 3>& side) {
   return same_strict_side(side[0], side[1]) && same_strict_side(side[1], side[2]);
 }
 
-/// The ends of the segment are not both in the plane of the triangle, nor strictly on one side of it: the line of the
-/// segment meets the plane in a point, which has to be in the triangle.
+/// Precondition: the ends of the segment are not both in the plane of the triangle, nor strictly on one side of it. The
+/// line of the segment then meets the plane in one point, which has to be in the triangle.
 bool pierces(const Segment3& s, const Triangle3& t) {
   const int a = orientation(s[0], s[1], t[0], t[1]), b = orientation(s[0], s[1], t[1], t[2]);
   if (same_strict_side(a, -b)) return false;
   return !disagree(a, b, orientation(s[0], s[1], t[2], t[0]));
 }
 
-/// The ends of the segment are on the plane of the triangle, or the triangle has no plane.
+/// Precondition: the ends of the segment are in the plane of the triangle, or the triangle has no plane.
 bool intersects_flat(const Segment3& s, const Triangle3& t) {
   const auto axis = view_of(t);
   return axis ? intersects(seen(s, *axis), seen(t, *axis)) : meets_an_edge<Segment3, 3>(s, t);
@@ -102,7 +102,7 @@ bool intersects_given_sides(const Segment3& s, int side0, int side1, const Trian
   return side0 == 0 && side1 == 0 ? intersects_flat(s, t) : pierces(s, t);
 }
 
-/// Whether an edge of s meets t; side: where the corners of s are.
+/// Whether an edge of s meets t; side: of the plane of t, for each corner of s.
 bool an_edge_meets(const Triangle3& s, const std::array<int, 3>& side, const Triangle3& t) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;

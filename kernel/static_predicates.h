@@ -6,7 +6,7 @@
 // counts as such. Signs are filtered: double precision with an error bound decides most of them, integers of fixed
 // width or of any width the rest.
 //
-// What this does not do: nothing moves here (include/noli/contact.h), and no point of the intersection is computed.
+// For moving simplices see include/noli/contact.h.
 #pragma once
 
 #include <array>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Candidates for the first time are 0 and the roots of the excesses. For let t > 0 be the first time. Of the pairs of
-// points that are nearest then, take one in the faces of least dimension; the part is not degenerate, and strictly
-// inside. Its excess is zero at t, and not throughout: for just before t it is still inside, and would have been within
+// Finds the first time at which two features come within a distance.
+//
+// Candidates are 0 and the roots of the excesses. Proof: let t > 0 be the first time. Of the pairs of points that are
+// nearest at t, take one in the faces of least dimension; its part is not degenerate, and strictly inside. Its excess
+// is zero at t but not throughout: just before t the part is still inside, so the features would have been within
 // already.
 #include "kernel/thickness.h"
 #include "kernel/arithmetic/algebraic.h"
@@ -26,13 +28,13 @@ namespace {
 
 constexpr double error =
     16 * 0x1p-53;  // more than the seven roundings of a scalar product of differences, in any rounding mode
-constexpr double smallest = 0x1p-900;  // above all that underflow can do
+constexpr double smallest = 0x1p-900;  // above any effect of underflow
 
 template <int Dim>
 using Direction = std::array<double, Dim>;
 
-/// A lower bound for n . (b - a) over the points of the features at both ends of the step; that is -infinity where
-/// anything overflows.
+/// A lower bound for n . (b - a) over the points of the features at both ends of the step; -infinity if anything
+/// overflows.
 template <FeaturePair Pair, int Dim>
 double least_gap(const Query<Pair, Dim>& q, const Direction<Dim>& n) {
   double least = std::numeric_limits<double>::infinity();

@@ -5,8 +5,8 @@
 // Notation: the distance is that of the closed features, eta the bound; "within" means distance <= eta. With eta = 0 it
 // is contact.
 //
-// What this does not do: no kind of contact, and no stages but one filter: it is for a user's bound on the distance,
-// not for the millions of queries of a simulation.
+// It has only one filter before the exact decision: it is meant for a user's bound on the distance, not for the
+// millions of queries of a simulation.
 #pragma once
 
 #include <optional>
@@ -22,13 +22,13 @@ namespace noli {
 template <FeaturePair Pair, int Dim>
 std::optional<TimeOfImpact> first_within(const Query<Pair, Dim>& query, double eta);
 
-/// Whether there is such a time.
+/// Whether the features come within eta of each other at some time in [0, 1].
 template <FeaturePair Pair, int Dim>
 bool within_distance(const Query<Pair, Dim>& query, double eta) {
   return first_within(query, eta).has_value();
 }
 
-/// The same for a piece of a motion; the time is its s (kernel/motion.h).
+/// The same for a piece of a motion; the time is s of kernel/motion.h.
 template <FeaturePair Pair, int Dim>
 std::optional<TimeOfImpact> first_within(const MotionQuery<Pair, Dim>& query, double eta);
 

@@ -16,7 +16,7 @@ mpq_class velocity(const Line& line, std::size_t axis) {
   return line.is_velocity ? mpq_class(line.y[axis]) : mpq_class(line.y[axis]) - mpq_class(line.x[axis]);
 }
 
-/// The largest double that is not greater than q, which is not negative.
+/// The largest double <= q. Precondition: q >= 0.
 double rounded_down(const mpq_class& q) {
   double d = q.get_d();
   if (!std::isfinite(d)) d = std::numeric_limits<double>::max();

@@ -8,7 +8,7 @@ namespace noli::oracle {
 
 namespace {
 
-/// The polynomial of least degree among those that are not zero; nothing if there is none.
+/// The nonzero polynomial of least degree; null if all are zero.
 const Polynomial* simplest(const std::vector<Polynomial>& polynomials) {
   const Polynomial* best = nullptr;
   for (const Polynomial& p : polynomials) {

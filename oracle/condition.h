@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conditions on the time t: unions of conjunctions of polynomial equations and inequalities, decided in real
+// Decides conditions on the time t: unions of conjunctions of polynomial equations and inequalities, in exact real
 // arithmetic.
 //
 // The truth of a condition can only change at a root of one of its polynomials. So the first time at which a closed
-// condition holds is 0 or such a root, and nothing else has to be looked at. (Closed: the set of times at which it
-// holds is. Single clauses need not be.)
+// condition holds is 0 or such a root, and these are the only candidates. A condition is closed if the set of times at
+// which it holds is closed; single clauses need not be.
 #pragma once
 
 #include <optional>
@@ -21,14 +21,14 @@ struct Clause {
   std::vector<Polynomial> zero, positive, not_negative;
 
   bool holds_at(const Time& t) const;
-  /// Whether it holds at all times later than t by little enough.
+  /// Whether it holds on some interval ]t, t + e[.
   bool holds_after(const Time& t) const;
-  /// Times in [0, 1], sorted or not, among which are all at which it begins or ceases to hold and, if it can hold at 0,
-  /// 0.
+  /// Times in [0, 1], in any order, that include all times at which it begins or ceases to hold, and 0 if it can hold
+  /// there.
   std::vector<Time> critical_times() const;
 };
 
-/// At least one of the clauses.
+/// Holds if at least one of the clauses holds.
 using Condition = std::vector<Clause>;
 
 bool holds_at(const Condition& condition, const Time& t);
@@ -37,7 +37,7 @@ bool holds_after(const Condition& condition, const Time& t);
 /// The least time in [0, 1] at which a closed condition holds.
 std::optional<Time> first_time(const Condition& condition);
 
-/// The first of some ascending times at which it holds.
+/// The first of the ascending times at which the condition holds.
 std::optional<Time> first_of(const std::vector<Time>& ascending, const Condition& condition);
 
 }  // namespace noli::oracle

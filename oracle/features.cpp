@@ -8,7 +8,7 @@ namespace noli::oracle {
 
 namespace {
 
-/// The closest points of two sub-features: the determinants behind their weights, and what their distance is.
+/// The closest points of two sub-features, as determinants.
 struct Closest {
   Polynomial gram;                  ///< G; positive iff the closest points of the affine hulls are unique
   std::vector<Polynomial> weights;  ///< G times the weights of the points
@@ -81,7 +81,7 @@ Clause vertex_on_vertex(const Vector& v, const Vector& w) {
   return {{d[0], d[1], d[2]}, {}, {}};
 }
 
-/// Within the distance, if the affine hulls are at the distance whose square is `squared` over G.
+/// The clause "within the distance". The squared distance of the affine hulls is `squared` over G.
 Clause near(const Closest& closest, const Polynomial& squared, const Polynomial& squared_distance) {
   Clause clause{{}, {closest.gram}, closest.weights};
   clause.not_negative.push_back(closest.gram * squared_distance - squared);

@@ -9,7 +9,7 @@ namespace noli::oracle {
 
 namespace {
 
-/// A double is mantissa 2^exponent with an odd integer as mantissa, or zero.
+/// A double as mantissa 2^exponent, with an odd integer as mantissa, or zero.
 struct Parts {
   Integer mantissa = 0;
   long exponent = std::numeric_limits<long>::max();
@@ -23,7 +23,7 @@ struct Parts {
   }
 };
 
-/// d / 2^unit. Precondition: an integer.
+/// d / 2^unit. Precondition: the result is an integer.
 Integer in_units(double d, long unit) {
   const Parts parts(d);
   Integer result;

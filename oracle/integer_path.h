@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The points of a motion as polynomials in t with integer coefficients: the doubles times a power of two.
+// Converts the points of a motion to polynomials in t with integer coefficients: the doubles times a power of two.
 #pragma once
 
 #include <array>
@@ -18,16 +18,15 @@ Vector operator-(const Vector& a, const Vector& b);
 Polynomial dot(const Vector& a, const Vector& b);
 Vector cross(const Vector& a, const Vector& b);
 
-/// Whether contact is all that is asked: then each axis may have its own power of two, because scaling an axis keeps
-/// contacts.
+/// For questions about contact alone, each axis may have its own power of two, because scaling an axis keeps contacts.
 enum class Unit { per_axis, common };
 
 struct IntegerPaths {
   std::vector<Vector> x;      ///< the points; third component zero in 2D
-  std::vector<Integer> also;  ///< further numbers in the same unit. Empty for Unit::per_axis
+  std::vector<Integer> also;  ///< `lengths` in the same unit. Empty for Unit::per_axis
 };
 
-/// `lengths`: numbers to be converted along. Precondition: none for Unit::per_axis.
+/// `lengths`: further numbers to convert. Precondition: empty for Unit::per_axis.
 IntegerPaths integer_paths(const Motion& motion, Unit unit, const std::vector<double>& lengths = {});
 
 }  // namespace noli::oracle

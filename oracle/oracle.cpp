@@ -51,7 +51,7 @@ bool axis_separates(const Motion& motion) {
 Answer first_contact(const Motion& motion) {
   if (axis_separates(motion)) return {};
   const std::vector<Vector> x = integer_paths(motion, Unit::per_axis).x;
-  // Where the orientation is not zero throughout, its roots are the only candidates, and often there is none.
+  // If the orientation is not the zero polynomial, its roots are the only candidates, and often it has none.
   const std::optional<Polynomial> necessary = orientation(motion, x);
   const bool few = necessary && !necessary->is_zero();
   const std::vector<Time> candidates = few ? Time::roots_of(*necessary) : std::vector<Time>();

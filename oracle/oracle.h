@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A second opinion on the questions that the kernel answers: slow, exact, and made on other lines. Rational arithmetic
-// and Sturm sequences throughout; no floating-point number is computed with. It includes nothing of the kernel.
+// Answers the kernel's questions a second time: slow, exact, and by other methods. It uses rational arithmetic and
+// Sturm sequences, never computes with floating-point numbers, and includes nothing of the kernel.
 //
-// Definitions: features are closed, degenerate ones are what their hull is, time is the closed interval [0, 1]. Kinds,
+// Features are closed; a degenerate one is the convex hull of its points. Time is the closed interval [0, 1]. Kinds,
 // judged at the first time t* of contact:
 //   persistent  in contact during a whole interval that begins at t*
 //   crossing    0 < t* < 1; vertex_face or edge_edge in 3D whose points span a plane at t*, or vertex_edge in 2D whose
@@ -30,7 +30,7 @@ constexpr std::string_view name(Kind kind) {
 
 struct Answer {
   Kind kind = Kind::apart;
-  std::optional<Time> time;  ///< the first time of contact; nothing iff apart
+  std::optional<Time> time;  ///< the first time of contact; unset iff apart
 };
 
 /// The first contact of the step.
@@ -40,7 +40,7 @@ Answer first_contact(const Motion& motion);
 /// not negative.
 std::optional<Time> first_within(const Motion& motion, double distance);
 
-/// Whether some axis keeps the two features in the same strict order at t = 0 and at t = 1; then they are apart.
+/// Whether the two features have the same strict order along some axis at t = 0 and at t = 1; then they stay apart.
 bool axis_separates(const Motion& motion);
 
 }  // namespace noli::oracle

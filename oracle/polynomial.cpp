@@ -18,8 +18,8 @@ Integer shifted(const Integer& a, unsigned long bits) {
 /// The numerator of `a` over 2^exponent. Precondition: exponent >= a.exponent.
 Integer numerator_over(const Dyadic& a, unsigned long exponent) { return shifted(a.numerator, exponent - a.exponent); }
 
-/// One division step makes the degree of `r` smaller: r := |lead(b)| r - (+-lead(r)) t^k b. Returns what b was
-/// multiplied by.
+/// One division step, which lowers the degree of `r`: r := |lead(b)| r - (+-lead(r)) t^k b. Returns the factor of
+/// t^k b.
 Integer eliminate(std::vector<Integer>& r, const Polynomial& b) {
   const std::size_t n = static_cast<std::size_t>(b.degree()), k = r.size() - 1 - n;
   Integer factor = sgn(b.leading()) > 0 ? r.back() : Integer(-r.back());

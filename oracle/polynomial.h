@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polynomials in one variable with integer coefficients of any size.
-//
-// What this does not do: nothing here is fast, and nothing is rounded.
+// Implements exact polynomials in one variable with integer coefficients of any size.
 #pragma once
 
 #include <gmpxx.h>
@@ -20,22 +18,22 @@ struct Dyadic {
   unsigned long exponent = 0;
 };
 
-/// -1, 0, 1: how a compares with b.
+/// -1 if a < b, 0 if a = b, 1 if a > b.
 int compare(const Dyadic& a, const Dyadic& b);
 
 /// (a + b) / 2.
 Dyadic middle(const Dyadic& a, const Dyadic& b);
 
-/// The double d as it is. Precondition: finite.
+/// The exact value of d. Precondition: d is finite.
 Dyadic exactly(double d);
 
-/// c[0] + c[1] t + ... ; the zero polynomial has no coefficients, any other a leading one that is not zero.
+/// c[0] + c[1] t + ... The zero polynomial has no coefficients; the leading coefficient of any other is nonzero.
 class Polynomial {
  public:
   Polynomial() = default;
   explicit Polynomial(std::vector<Integer> coefficients);
 
-  /// The value that goes from at_t0 at t = 0 to at_t1 at t = 1.
+  /// The linear polynomial that is at_t0 at t = 0 and at_t1 at t = 1.
   static Polynomial linear(const Integer& at_t0, const Integer& at_t1);
   static Polynomial constant(const Integer& value);
 
@@ -46,7 +44,7 @@ class Polynomial {
   const Integer& leading() const { return c_.back(); }
 
   Polynomial derivative() const;
-  /// This polynomial over the greatest common divisor of its coefficients, which is positive.
+  /// This polynomial divided by the positive greatest common divisor of its coefficients.
   Polynomial primitive() const;
 
   int sign_at(const Dyadic& t) const;
@@ -67,8 +65,8 @@ Polynomial remainder(const Polynomial& a, const Polynomial& b);
 /// a / b times some positive number. Precondition: b is not zero and divides a over the rationals.
 Polynomial exact_quotient(const Polynomial& a, const Polynomial& b);
 
-/// The sign that p has on the whole closed interval [lo, hi], or 0 when a bound from the Taylor coefficients at lo does
-/// not tell.
+/// The sign of p on the whole closed interval [lo, hi], or 0 if a bound from the Taylor coefficients at lo does not
+/// decide it.
 int sign_throughout(const Polynomial& p, const Dyadic& lo, const Dyadic& hi);
 
 }  // namespace noli::oracle

@@ -15,7 +15,7 @@ struct Isolation {
   std::vector<Polynomial> sequence;
   std::vector<IsolatedRoot> found;
 
-  /// Whether (lo, hi], which has one root, isolates it, or has it as its end.
+  /// Records the only root of (lo, hi]. Returns false without recording it if lo is a root too and hi is not.
   bool settle(const Dyadic& lo, const Dyadic& hi) {
     if (p.sign_at(hi) == 0) {
       found.push_back({hi, hi});

@@ -9,7 +9,7 @@ namespace noli::oracle {
 
 namespace {
 
-/// How often the isolating interval is halved before a sign is asked from a Sturm sequence.
+/// How often the isolating interval is halved before a Sturm sequence decides a sign.
 constexpr int patience = 24;
 
 }  // namespace
@@ -77,15 +77,15 @@ int Time::compare(const Time& other) const {
   if (is_dyadic()) return -other.compare(root_.lo);
   if (const int sign = compare(other.root_.lo); sign <= 0) return -1;
   if (const int sign = compare(other.root_.hi); sign >= 0) return 1;
-  // Inside the interval that isolates `other`: the same number, or on one of the two sides of its only root.
+  // Inside the interval that isolates `other`: either the same number, or on one side of its only root.
   const int here = sign_of(other.defining_);
   if (here == 0) return 0;
   return here == other.defining_.sign_at(other.root_.lo) ? -1 : 1;
 }
 
 double Time::lower() const {
-  // Non-negative doubles are ordered as their bit patterns are. Halving first keeps the numbers small in the search
-  // that follows.
+  // Non-negative doubles are ordered like their bit patterns. Halving first keeps the numbers small in the search
+  // below.
   for (int i = 0; i < 60 && !is_dyadic(); ++i) halve();
   std::uint64_t below = std::bit_cast<std::uint64_t>(0.0), above = std::bit_cast<std::uint64_t>(1.0) + 1;
   if (const double guess = approximation(); guess > 1e-300 && guess < 1) {

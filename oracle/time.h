@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A time in [0, 1] that is a root of a polynomial with integer coefficients.
+// Represents a time in [0, 1] that is a root of a polynomial with integer coefficients.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,7 @@
 
 namespace noli::oracle {
 
-/// An algebraic number in [0, 1]. Const members may narrow the interval that isolates it, so one object belongs to one
-/// thread.
+/// An algebraic number in [0, 1]. Not thread-safe: const members may narrow the isolating interval.
 class Time {
  public:
   /// t = 0.
@@ -19,19 +18,19 @@ class Time {
 
   /// The sign of q here.
   int sign_of(const Polynomial& q) const;
-  /// The sign of q at all times later than this by little enough; 0 iff q is zero.
+  /// The sign of q just after this time; 0 iff q is the zero polynomial.
   int sign_after(const Polynomial& q) const;
-  /// Whether q, which is zero here, changes its sign here. False for the zero polynomial.
+  /// Whether q changes its sign here. False for the zero polynomial.
   bool changes_sign(const Polynomial& q) const;
 
-  /// -1, 0, 1: how this compares with t.
+  /// -1, 0, 1: earlier than t, equal, later.
   int compare(const Dyadic& t) const;
   int compare(double t) const { return compare(exactly(t)); }
   int compare(const Time& other) const;
 
-  /// The largest double that is not greater.
+  /// The largest double that is not greater than this time.
   double lower() const;
-  /// Near the number, for a reader's eyes and for tests that need no more.
+  /// An approximation without an error bound, for display and for tests.
   double approximation() const;
 
   /// All roots of p in [0, 1], ascending. Precondition: p is not zero.
@@ -46,7 +45,7 @@ class Time {
   mutable IsolatedRoot root_;
 };
 
-/// Sorts and keeps one of equals.
+/// Sorts and removes duplicates.
 void sort_distinct(std::vector<Time>& times);
 
 }  // namespace noli::oracle

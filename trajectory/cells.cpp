@@ -9,7 +9,7 @@
 namespace noli {
 namespace {
 
-/// Equal for an edge and its reverse, different for any others.
+/// Equal for an edge and its reverse, different for all others.
 std::uint64_t edge_key(VertexId a, VertexId b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 void drop_redundant_edges(Mesh& mesh) {

@@ -19,9 +19,9 @@
 namespace noli {
 namespace {
 
-constexpr std::size_t part_size = std::size_t{1} << 20;  ///< bytes that are read between two looks at a stop
+constexpr std::size_t part_size = std::size_t{1} << 20;  ///< bytes that are read between two checks for a stop
 
-/// What a file may have. Its contents will take as much again, at least, once they are parsed.
+/// The largest size that a file may have. Once parsed, its contents take at least as much memory again.
 std::uint64_t most_bytes() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
   constexpr std::uint64_t unknown = std::uint64_t{1} << 32;
@@ -56,17 +56,17 @@ InputFile::InputFile(const std::filesystem::path& path, std::string name) : name
 
 InputFile::~InputFile() { ::close(descriptor_); }
 
-/// Until there is something to read, or the end.
+/// Waits until there is something to read, or the end of the file.
 void InputFile::wait() const {
   constexpr int milliseconds = 50;
   for (;;) {
-    if (regular_ && taken_ < part_size) return;  // small files take no time, and some say what was stopped
+    if (regular_ && taken_ < part_size) return;  // small files take no time, and reports of a stop need some of them
     if (stop_asked()) throw ReadInterrupted(name_);
     if (regular_) return;
     pollfd one{descriptor_, POLLIN, 0};
     const int there = ::poll(&one, 1, milliseconds);
     if (there > 0) return;
-    // A handler without SA_RESTART: whoever installed it wants the wait to end.
+    // The handler was installed without SA_RESTART, so the wait should end.
     if (there < 0 && errno == EINTR) throw ReadInterrupted(name_);
   }
 }
@@ -89,7 +89,7 @@ std::string InputFile::read_to_end() {
   std::string bytes;
   bytes.reserve(static_cast<std::size_t>(size_) + 1);
   for (std::size_t used = 0;;) {
-    // One byte more than a file has: its end is then found without growing.
+    // One byte more than the file has, so that its end is found without growing.
     const std::size_t room =
         used <= size_ && regular_ ? std::min<std::uint64_t>(part_size, size_ + 1 - used) : part_size;
     if (bytes.size() == used) bytes.resize(used + room);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file or pipe that is read from beginning to end, and hears a request to stop (stop.h) while it waits.
+// Reads a file or pipe from beginning to end, and reacts to a request to stop (stop.h) while it waits.
 //
-// Opening does not block: a named pipe that nobody writes to is waited for in read(). What has no end is refused:
-// devices other than terminals at once, anything else where it would fill the memory.
+// Opening does not block: read() waits for a named pipe that has no writer yet. Endless input is refused: devices other
+// than terminals at once, anything else before it fills the memory.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class InputFile {
 
   /// Reads the next bytes, at most `size`; 0 at the end. Throws InputError when that fails, ReadInterrupted.
   std::size_t read(char* to, std::size_t size);
-  /// All that is left. Throws as read() does, and InputError when it is more than half of this machine's memory.
+  /// All remaining bytes. Throws as read() does, and InputError when they are more than half of this machine's memory.
   std::string read_to_end();
 
  private:
@@ -39,10 +39,10 @@ class InputFile {
   std::uint64_t taken_ = 0;  ///< bytes that were read
 };
 
-/// Throws InputError when there is something else by that name: a folder, a pipe, a device. Links are followed.
+/// Throws InputError when the path names something else: a folder, a pipe, a device. Links are followed.
 void require_regular_file(const std::filesystem::path& path);
 
-/// Opens it for reading. Throws InputError when it cannot be opened, or is no regular file.
+/// Opens a file for reading. Throws InputError when it cannot be opened, or is not a regular file.
 std::ifstream open_regular_file(const std::filesystem::path& path);
 
 }  // namespace noli

@@ -20,20 +20,20 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
   return z ^ (z >> 31);
 }
 
-/// Equal for positions that are equal as numbers: adding +0 makes -0 into +0 and leaves all else.
+/// Equal for positions that are equal as numbers: adding +0 turns -0 into +0 and changes nothing else.
 std::uint64_t hash(VertexId old_class, const Position& x) {
   std::uint64_t result = mix(0, old_class);
   for (const double coordinate : x) result = mix(result, std::bit_cast<std::uint64_t>(coordinate + 0.0));
   return result;
 }
 
-/// An open table of vertices, each standing for all that have its old class and its position.
+/// An open-addressing table of vertices. Each represents all vertices with its old class and its position.
 class Classes {
  public:
   Classes(const std::vector<VertexId>& old_class, std::span<const Position> positions)
       : old_class_(old_class), positions_(positions), slots_(std::bit_ceil(2 * positions.size() + 1), nobody) {}
 
-  /// The first vertex ever asked for with this one's class and position: itself when there was none.
+  /// The first vertex asked for with this one's class and position: itself if there was none.
   VertexId find_or_insert(VertexId v) {
     std::size_t slot = hash(old_class_[v], positions_[v]) & (slots_.size() - 1);
     while (slots_[slot] != nobody && !same(slots_[slot], v)) slot = (slot + 1) & (slots_.size() - 1);

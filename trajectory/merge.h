@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes one vertex of those that are at the same place at all times. Never done silently: only on request, and the
-// count is reported.
+// Merges vertices that are at the same place at all times. It happens only on request, and reports say how many.
 //
-// Two passes over the frames: the first finds the classes of vertices whose coordinates are equal as numbers (-0 is 0)
-// in every frame, by splitting the classes frame by frame; the second is the work itself, on a mesh that refers to the
-// first vertex of each class.
+// It takes two passes over the frames. The first finds the classes of vertices whose coordinates are equal as numbers
+// (-0 is 0) in every frame, by splitting the classes frame by frame. The second is the verification itself, on a mesh
+// that refers to the first vertex of each class.
 //
 // Memory is linear in the number of vertices. Equality is decided by comparing coordinates; hashes only find
 // candidates.
@@ -37,10 +36,9 @@ class IdenticalVertices {
   std::vector<VertexId> representative_;
 };
 
-/// The mesh with every index replaced by its representative. vertex_count stays, so positions need no change; vertices
-/// that were merged into others are no longer referred to (so ask unreferenced_vertices() before, if they are to
-/// count). A cell in which an index now occurs twice stays, degenerate; loose edges and points that became redundant
-/// are dropped (cells.h).
+/// The mesh with every index replaced by its representative. vertex_count stays, so positions need no change. Vertices
+/// that were merged into others are then unreferenced, so call unreferenced_vertices() first. A cell in which an index
+/// now occurs twice stays, degenerate; loose edges and points that became redundant are dropped (cells.h).
 Mesh with_merged_vertices(const Mesh& mesh, const IdenticalVertices& classes);
 
 }  // namespace noli

@@ -7,13 +7,13 @@
 namespace noli {
 namespace {
 
-/// Where t is from a (0) to b (1). Precondition: a <= t <= b, a < b.
+/// Where t lies between a (0) and b (1). Precondition: a <= t <= b, a < b.
 double fraction(double a, double b, double t) {
   if (std::isfinite(b - a)) return (t - a) / (b - a);
   return (t / 2 - a / 2) / (b / 2 - a / 2);
 }
 
-/// Between a and b, whatever the rounding.
+/// Always between a and b, despite rounding.
 double between(double a, double b, double s) { return std::clamp(std::lerp(a, b, s), std::min(a, b), std::max(a, b)); }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one request to stop of a process: the user's (Ctrl-C) or that of a time limit.
+// The request to stop this process, from the user (Ctrl-C) or a time limit.
 //
-// A program makes the request, from a signal handler or a timer. Whatever takes long asks for it, at least ten times a
-// second, and throws Stopped. Asking costs one load, so inner loops may ask at each turn.
-//
-// What this does not do: it ends nothing by itself, and a library that nobody asks to stop never stops.
+// A program makes the request, from a signal handler or a timer. Long work checks for it at least ten times a second,
+// and throws Stopped. A check costs one load, so inner loops may check in each iteration.
 #pragma once
 
 #include <atomic>
@@ -28,7 +26,7 @@ inline void ask_to_stop(StopReason reason) noexcept {
   stop_detail::asked.fetch_or(static_cast<std::uint8_t>(reason), std::memory_order_relaxed);
 }
 
-/// Takes all requests back: for tests.
+/// Takes all requests back; for tests.
 inline void forget_stops() noexcept { stop_detail::asked.store(0, std::memory_order_relaxed); }
 
 /// Whether, and why, the process was asked to stop. The user comes before the time limit.

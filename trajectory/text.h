@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the readers of text share: lines with their numbers, words, numbers that are the whole of a word, and the
-// loading of a file.
+// Shared by the readers of text: lines with their numbers, words, numbers that are a whole word, and loading a file.
 //
 // Nothing here depends on the locale; decimal numbers are rounded correctly (std::from_chars).
 #pragma once
@@ -18,17 +17,17 @@ namespace noli {
 /// The bytes of a file. Throws as InputFile does, and InputError when it is empty.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// "line 12", "byte 345": the places that InputError names.
+/// "line 12", "byte 345": places for InputError.
 std::string line_place(std::size_t line);
 std::string byte_place(std::size_t offset);
 
-/// A word of the file in quotes, fit for a one-line message: shortened when long, unprintable bytes shown as '?'.
+/// A word of the file in quotes for a one-line message: shortened when long, with '?' for unprintable bytes.
 std::string in_quotes(std::string_view word);
 
-/// What stands before the first line end.
+/// The text before the first line end.
 inline std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
-/// The first line of what a program says on standard error that is no note ("noli: note: ..."); a note if all are.
+/// The first line of a program's standard error that is not a note ("noli: note: ..."); a note if all lines are.
 std::string first_complaint(std::string_view text);
 
 /// Walks over the lines of a text. A line ends with LF or CRLF; the last one may end with the text.
@@ -79,12 +78,11 @@ class Words {
   std::string_view rest_;
 };
 
-/// The text between the tags, or within an attribute, of XML and HTML. Characters that XML cannot write are left out.
+/// Escapes text for content and attributes of XML and HTML. Characters that XML does not allow are dropped.
 std::string escaped_markup(std::string_view text);
 
-/// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code as
-/// std::from_chars does: invalid_argument when it is no such number, result_out_of_range when it is one that T cannot
-/// hold.
+/// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code like
+/// std::from_chars: invalid_argument when it is not such a number, result_out_of_range when T cannot hold it.
 template <class T>
 std::errc parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -93,8 +91,8 @@ std::errc parse_number(std::string_view word, T& value) {
   return error;
 }
 
-/// Parses the whole of `word` as a finite T, float or double, correctly rounded. Returns "" when it did, else what is
-/// wrong with it.
+/// Parses the whole of `word` as a finite T, float or double, correctly rounded. Returns "" on success, otherwise what
+/// is wrong with the word.
 template <class T>
 std::string parse_finite(std::string_view word, T& value);
 

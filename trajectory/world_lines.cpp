@@ -11,7 +11,7 @@
 namespace noli {
 namespace {
 
-/// The arrays of a WorldLines that is not yet known to be one.
+/// The arrays of a WorldLines, not checked yet.
 struct Candidate {
   const std::vector<std::size_t>& offsets;
   const std::vector<double>& times;

@@ -4,14 +4,13 @@
 //
 // Notation
 //   T0, T1        common first and last time of all vertices, T0 < T1
-//   breakpoint    a time and the position then; those of one vertex are in strictly ascending order of time
+//   breakpoint    a time and the position at it; those of one vertex are in strictly ascending order of time
 //   segment k     the piece between breakpoints k and k + 1 of a vertex, both included
 //
 // Storage: the breakpoints of all vertices in one array, vertex after vertex; those of v begin at offsets[v] and end
 // before offsets[v + 1].
 //
-// What this does not do: it does not interpolate (that would round; exact users take the segment), and it reads no
-// files.
+// Nothing here interpolates, as that would round (sample.h does). For exact results use the segments.
 #pragma once
 
 #include <cstddef>
@@ -29,10 +28,11 @@ class WorldLines {
   /// finite positions.
   static WorldLines from_frames(std::span<const Position> x_t0, std::span<const Position> x_t1);
 
-  /// Takes over breakpoints and checks them; `source` is what errors call them. `offsets` has one entry more than there
-  /// are vertices. Throws InputError with the vertex and its breakpoint: offsets that do not fit the arrays or descend,
-  /// no vertices, fewer than two breakpoints, times that are not finite or not strictly ascending, a vertex with
-  /// another first or last time than vertex 0, positions that are not finite.
+  /// Takes over breakpoints and checks them; errors name `source`. `offsets` has one entry more than there are
+  /// vertices.
+  /// Throws InputError with the vertex and its breakpoint: offsets that do not fit the arrays or descend, no vertices,
+  /// fewer than two breakpoints, times that are not finite or not strictly ascending, a first or last time that differs
+  /// from that of vertex 0, positions that are not finite.
   static WorldLines from_breakpoints(std::vector<std::size_t> offsets, std::vector<double> times,
                                      std::vector<Position> positions, const std::string& source);
 
@@ -46,7 +46,7 @@ class WorldLines {
     return {positions_.data() + offsets_[v], breakpoint_count(v)};
   }
 
-  /// The segment k that contains t; at a breakpoint the one that begins there, at T1 the last. Precondition: T0 <= t <=
+  /// The segment k that contains t: at a breakpoint the one that begins there, at T1 the last. Precondition: T0 <= t <=
   /// T1.
   std::size_t segment_at(VertexId v, double t) const;
 

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty file in this folder that nobody has: what has such a name is somebody's, if only of a process that was
-/// killed. The name is short, so that it is not too long where the target's is not.
+/// Creates an empty file under a free name in this folder. An existing file may belong to another process, or to one
+/// that was killed. The name is short, so that it is not too long when the target's name is not.
 fs::path new_file(const fs::path& folder) {
   for (std::uint64_t number = 0;; ++number) {
     fs::path path = folder / (".noli-" + std::to_string(number));

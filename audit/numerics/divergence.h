@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a run in other numbers parts from the run in double.
-//
-// What this does not do: it finds none of it (audit/numerics/replay.h).
+// Records where a run in another precision departs from the run in double. audit/numerics/replay.h fills these in.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +11,13 @@
 
 namespace noli::audit {
 
-/// The first number of a run that is not, bit for bit, that of the run in double.
+/// The first number of a run that differs from the run in double in any bit.
 struct BitDifference {
   double time = 0;   ///< [s]
   std::string what;  ///< "position of vertex 3", ...
 };
 
-/// A pair for which the formulas went another way than in double.
+/// A pair for which the formulas took another branch than in double.
 struct CourseChange {
   double time = 0;  ///< [s]
   certificates::Stencil pair;
@@ -27,7 +25,7 @@ struct CourseChange {
   bool acts_in_double = false;
 };
 
-/// Of each way in which formulas may part: how often, and where first.
+/// For each kind of branch that may differ: how often it did, and where first.
 struct CourseChanges {
   struct Way {
     std::uint64_t count = 0;
@@ -36,9 +34,9 @@ struct CourseChanges {
       if (count++ == 0) first = change;
     }
   };
-  Way acts;     ///< a layer acts in one run and not in the other: the order of impulses is another
-  Way parts;    ///< restitution counts in one of them only
-  Way sticks;   ///< friction stops all slip in one of them only
+  Way acts;     ///< a layer acts in one run and not in the other: the order of impulses differs
+  Way parts;    ///< restitution counts in only one of them
+  Way sticks;   ///< friction stops all slip in only one of them
   Way corners;  ///< the closest points lie on other parts of the features
 };
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a window of a run in double did, so that a run in other numbers can do the same in the same order.
+// Logs what a window of a run in double did, so that a run in another precision can do the same in the same order.
 //
-// Forces and scripts need no log: their times follow from their steps, whatever the numbers. Nor does gravity: its
-// times follow from those of forces and from the run's own impulses. Contact does: which pairs a layer fires for
-// depends on where things are.
-//
-// What this does not do: pairs that no certificate brought to the layers are not in it.
+// Forces and scripts need no log: their times follow from their steps in every precision. Gravity needs none either:
+// its times follow from those of forces and from the run's own impulses. Contact needs one: which pairs a layer fires
+// for depends on the positions. Only pairs that a certificate passed on to the layers are logged.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +17,7 @@
 
 namespace noli::audit {
 
-/// A pair for which a layer fired, and which way the formulas went in double.
+/// A pair for which a layer fired, and the branches that the formulas took in double.
 struct Examined {
   certificates::Stencil pair;
   integrator::Course course;
@@ -31,7 +29,7 @@ struct LoggedFiring {
   std::size_t begin = 0, end = 0;
 };
 
-/// A layer that is active for pairs at the window's end.
+/// A layer and the pairs for which it is active at the window's end.
 struct ActiveLayer {
   integrator::LayerTerms terms;
   double step;  ///< h(l) [s]
@@ -54,7 +52,7 @@ class EventLog : public integrator::Uncounted {
     firings_.back().end = examined_.size();
   }
 
-  /// To be called at the window's end.
+  /// Call at the window's end.
   void add_active(ActiveLayer layer) { active_.push_back(std::move(layer)); }
 
   void clear() {

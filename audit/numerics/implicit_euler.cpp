@@ -13,7 +13,7 @@ using integrator::VertexVectors;
 
 constexpr int most_corrections = 200;
 constexpr double solved = 1e-9;
-/// Of the linear equations of one correction: the next one makes up for what is left.
+/// Relative residual of the linear equations of one correction; the next correction makes up for the rest.
 constexpr double most_residual = 1e-3;
 
 template <int Dim>
@@ -36,7 +36,7 @@ class ImplicitEuler {
 
   void step() {
     const std::vector<Vec> before = x_;
-    std::vector<Vec> target = x_;  // where nothing but inertia and gravity would take everything
+    std::vector<Vec> target = x_;  // where inertia and gravity alone would take the vertices
     for (std::size_t i = 0; i < x_.size(); ++i) {
       if (!free_[i]) continue;
       target[i] += h_ * v_[i];
@@ -56,7 +56,7 @@ class ImplicitEuler {
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  /// One correction of x'; whether it was small.
+  /// Makes one correction of x'; true if it was small.
   bool correct(const std::vector<Vec>& target) {
     const auto n = static_cast<Eigen::Index>(x_.size() * Dim);
     entries_.clear();

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The implicit Euler method, for context: what many write for cloth, as it bears steps of any length.
+// Implements the implicit Euler method, for comparison: many use it for cloth because it is stable for steps of any
+// length.
 //
 // Notation
 //   h        step [s], which divides the window
 //   x', v'   at the end of a step: M (x' - x - h v) / h^2 = M g - grad V(x'), v' = (x' - x) / h
-//   K        sum over forces and measures of c grad s grad s^T (force.h): their stiffness without that of stress, never
-//            indefinite; each correction of x' solves (M / h^2 + K) dx = -residual by conjugate gradients
-//   solved   a step whose last correction moves nothing by more than 1e-9 of the size of the scene, within 200
-// (Baraff, Witkin, "Large steps in cloth simulation", 1998, take one correction; with it the error would be that of the
-// solver too.)
+//   K        sum over forces and measures of c grad s grad s^T (force.h): the stiffness without the stress term, so
+//            positive semidefinite; each correction of x' solves (M / h^2 + K) dx = -residual by conjugate gradients
+//   solved   a step whose last correction moves no vertex by more than 1e-9 of the size of the scene, within 200
+// (Baraff, Witkin, "Large steps in cloth simulation", 1998, make one correction; that would add the solver's error.)
 //
-// What this does not do: no damping, no scripts, no contact; and it is not made fast: no solver of its own for the
-// sizes here. What its times say is their order of magnitude.
+// There is no damping, no scripts and no contact. The code is not tuned for speed; its run times are only meaningful to
+// an order of magnitude.
 #pragma once
 
 #include "audit/numerics/sampled_run.h"

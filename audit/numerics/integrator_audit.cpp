@@ -16,7 +16,7 @@ namespace {
 
 using integrator::Model;
 
-/// A pass that is shorter is made again, up to so often.
+/// Passes shorter than `short_pass` [s] of CPU time in total are repeated, up to `most_repetitions` in all.
 constexpr double short_pass = 0.1;
 constexpr int most_repetitions = 5;
 
@@ -26,7 +26,7 @@ struct NotFinite {};
 template <int Dim>
 class Reference {
  public:
-  /// Without `coarse` it is the fine run as it is.
+  /// If `coarse` is null, the reference is the fine run itself.
   Reference(const Model<double, Dim>& model, const SampledRun<Dim>& fine, const SampledRun<Dim>* coarse)
       : model_(model), free_(free_vertices(model)) {
     for (std::size_t i = 0; i < fine.samples.size(); ++i) {
@@ -34,7 +34,7 @@ class Reference {
       if (coarse != nullptr) extrapolate(sample.x, coarse->samples[i].x);
       if (coarse != nullptr) extrapolate(sample.v, coarse->samples[i].v);
       Mechanics<Dim> m = mechanics(model, sample);
-      // The fine run keeps its momenta to rounding; products of what is extrapolated do not.
+      // The fine run conserves its momenta up to rounding; products of extrapolated values do not.
       const Mechanics<Dim> kept = mechanics(model, fine.samples[i]);
       m.momentum = kept.momentum;
       m.angular_momentum = kept.angular_momentum;
@@ -67,7 +67,7 @@ class Reference {
     for (std::size_t v = 0; v < fine.size(); ++v) fine[v] += (fine[v] - coarse[v]) / 3;
   }
 
-  /// What does not move has no error to be measured against, and none.
+  /// A scene that does not move has nothing to measure an error against, and no error.
   static double part(double error, double scale) { return scale > 0 ? error / scale : 0; }
 
   double distance(const Sample<Dim>& a, const Sample<Dim>& b) const {

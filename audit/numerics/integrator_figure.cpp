@@ -22,7 +22,7 @@ using report::Tick;
 constexpr const char* axis_grey = "#444444";
 constexpr double panel_size_x = 380, panel_size_y = 300, gap_x = 110, gap_y = 110, margin_left = 96, margin_top = 84;
 
-constexpr std::size_t panel_columns = 2;  ///< of panels
+constexpr std::size_t panel_columns = 2;
 
 struct ErrorPanel {
   const char* words;
@@ -38,7 +38,7 @@ struct MethodLook {
   const char *method, *colour, *words;
 };
 
-/// Precondition: the method is one of these four.
+/// Precondition: the method is one of the four below.
 const MethodLook& look_of(const MethodResult& result) {
   static constexpr MethodLook looks[] = {{"own", "#2e8b57", "a step for each force"},
                                          {"grouped", "#1b6ca8", "steps in groups"},
@@ -99,7 +99,7 @@ void legend(Svg& svg, const IntegratorResults& results) {
 
 std::string integrator_svg(const IntegratorResults& results) {
   const std::string title = "Integration: error against run time";
-  const std::size_t rows = (error_panels.size() + panel_columns - 1) / panel_columns;  // of a scene
+  const std::size_t rows = (error_panels.size() + panel_columns - 1) / panel_columns;  // per scene
   Svg svg(margin_left + static_cast<double>(panel_columns) * (panel_size_x + gap_x) - gap_x + 30,
           margin_top + static_cast<double>(rows * results.size()) * (panel_size_y + gap_y), title);
   svg.text({margin_left, 28}, title);

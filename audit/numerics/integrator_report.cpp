@@ -64,7 +64,7 @@ Json timing_json(const IntegratorResult& result) {
 
 std::string two_digits(double x) { return fmt::format("{:.2g}", x); }
 
-/// How many times smaller the error of the trajectory became, as a power of the step's factor.
+/// The observed order: the ratio of successive trajectory errors as a power of the ratio of steps.
 std::string order(const MethodResult& method, std::size_t i) {
   if (i == 0 || !method.points[i].finite || !method.points[i - 1].finite) return "-";
   const IntegratorPoint &before = method.points[i - 1], &now = method.points[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `noli audit integrator` says: text, JSON, and a picture of errors against run time.
+// Writes the results of `noli audit integrator`: text, JSON, and a figure of errors against run time.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace noli::audit {
 
 using IntegratorResults = std::vector<IntegratorResult>;
 
-/// "measured", "finding" (a run left the numbers), "undecided".
+/// "measured", "finding" (a run produced a value that is not finite), "undecided".
 const char* integrator_verdict(const IntegratorResults& results);
 
 report::Answer integrator_answer(const IntegratorResults& results);
 
 Json integrator_json(const IntegratorResults& results);
 
-/// For each scene, errors of trajectory, energy, momentum and angular momentum over run time, all logarithmic: a line
-/// for each method.
+/// For each scene, errors of trajectory, energy, momentum and angular momentum over run time, with a line for each
+/// method. All axes are logarithmic.
 std::string integrator_svg(const IntegratorResults& results);
 
 }  // namespace noli::audit

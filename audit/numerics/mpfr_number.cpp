@@ -9,7 +9,7 @@ namespace {
 
 constexpr mpfr_exp_t binary64_emin = -1073, binary64_emax = 1024;
 
-/// Of this thread. Outside of scopes: 53 bits, exponents as MPFR has them.
+/// The arithmetic of this thread. Outside of scopes: 53 bits and MPFR's exponent range.
 thread_local Arithmetic current;
 
 }  // namespace
@@ -19,7 +19,7 @@ MpfrNumber::MpfrNumber() {
   mpfr_custom_init_set(value_, MPFR_ZERO_KIND, 0, current.bits, limbs_);
 }
 
-/// What it is called for, rounded to the precision of the scope.
+/// The result of `function`, rounded to the precision of the scope.
 template <class Function, class... Arguments>
 MpfrNumber MpfrNumber::of(Function* function, const Arguments&... arguments) {
   MpfrNumber result;

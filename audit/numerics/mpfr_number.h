@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of as many bits as a run wants: MPFR's, rounded to nearest, ties to even, each operation once.
+// Wraps MPFR numbers of any precision for the integrator: each operation rounds once, to nearest, ties to even.
 //
 // Notation
 //   p             precision in bits, of the significand with its leading 1
@@ -8,18 +8,18 @@
 //                 emax = 1024 (MPFR's convention), and subnormal numbers by mpfr_subnormalize after each operation,
 //                 which undoes double rounding. Then + - * / sqrt are those of the processor, bit for bit (MPFR manual,
 //                 "Exception Related Functions")
-//   scope         an MpfrScope: on its thread, until it ends, results of operations have its precision. A copy has the
-//                 precision of what was copied, and is exact
+//   scope         an MpfrScope: while it exists, results of operations on its thread have its precision. A copy is
+//                 exact and keeps the precision of its original
 //
-// The digits are in the number itself, so nothing is allocated. Operations are not inline: beside what they do a call
-// costs nothing, and the integrator's loops, which inline all they can, stay compilable.
+// The digits are stored in the number itself, so nothing is allocated. Operations are not inline: a call is cheap
+// compared with the operation, and the integrator's loops, which inline all they can, still compile in reasonable time.
 //
-// What this does not do: no NaN payloads, no flags, no other rounding modes, and no functions but the square root and
-// the absolute value. Comparing numbers of different precision is exact. Operations outside of scopes have 53 bits and
-// the exponents of MPFR.
+// Comparing numbers of different precision is exact. Operations outside of scopes have 53 bits and MPFR's exponent
+// range. There are no NaN payloads, no flags, no other rounding modes, and no functions except the square root and the
+// absolute value.
 #pragma once
 
-// First, so that it declares what has to do with intmax_t or FILE only if others have asked for it.
+// First, so that it declares functions on intmax_t or FILE only if earlier includes asked for them.
 #include <mpfr.h>
 
 #include <Eigen/Core>
@@ -28,15 +28,15 @@
 
 namespace noli::audit {
 
-/// What operations yield.
+/// The precision and exponent range of results.
 struct Arithmetic {
   int bits = 53;
-  bool binary64 = false;  ///< exponents as in IEEE 754 binary64; else as wide as MPFR has them
+  bool binary64 = false;  ///< exponents as in IEEE 754 binary64; else MPFR's widest range
 
   friend bool operator==(const Arithmetic&, const Arithmetic&) = default;
 };
 
-/// That of the processor.
+/// The processor's arithmetic.
 constexpr Arithmetic hardware_double{53, true};
 
 class MpfrNumber {
@@ -50,7 +50,7 @@ class MpfrNumber {
   MpfrNumber& operator=(const MpfrNumber& other);
 
   int bits() const { return static_cast<int>(mpfr_get_prec(value_)); }
-  /// The nearest double.
+  /// Rounds to the nearest double.
   explicit operator double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   bool finite() const { return mpfr_number_p(value_) != 0; }
   bool is_nan() const { return mpfr_nan_p(value_) != 0; }
@@ -68,7 +68,7 @@ class MpfrNumber {
   MpfrNumber& operator*=(const MpfrNumber& b) { return *this = *this * b; }
   MpfrNumber& operator/=(const MpfrNumber& b) { return *this = *this / b; }
 
-  // With NaN all of these are false, but for !=.
+  // With NaN, all of these are false except !=.
   friend bool operator==(const MpfrNumber& a, const MpfrNumber& b) { return mpfr_equal_p(a.value_, b.value_) != 0; }
   friend std::partial_ordering operator<=>(const MpfrNumber& a, const MpfrNumber& b) {
     if (mpfr_unordered_p(a.value_, b.value_) != 0) return std::partial_ordering::unordered;
@@ -87,8 +87,8 @@ class MpfrNumber {
   mp_limb_t limbs_[most_limbs];
 };
 
-/// Makes this thread's arithmetic another one for as long as it is there. Throws std::invalid_argument for precisions
-/// that MpfrNumber does not have.
+/// Sets this thread's arithmetic while the object exists. Throws std::invalid_argument for precisions that MpfrNumber
+/// does not support.
 class MpfrScope {
  public:
   explicit MpfrScope(const Arithmetic& arithmetic);
@@ -103,7 +103,7 @@ class MpfrScope {
 
 }  // namespace noli::audit
 
-/// The formulas ask for these as thresholds, of which there is to be one in all precisions: they are those of double.
+/// The formulas use these as thresholds, which must be the same in all precisions: they are those of double.
 template <>
 class std::numeric_limits<noli::audit::MpfrNumber> {
  public:
@@ -114,7 +114,7 @@ class std::numeric_limits<noli::audit::MpfrNumber> {
 };
 
 namespace Eigen {
-/// Costs decide in which order Eigen adds up the terms of a sum: they have to be those of double.
+/// Costs decide the order in which Eigen adds the terms of a sum, so they must be those of double.
 template <>
 struct NumTraits<noli::audit::MpfrNumber> : GenericNumTraits<noli::audit::MpfrNumber> {
   using Real = noli::audit::MpfrNumber;

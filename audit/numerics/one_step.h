@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A model whose forces all have one step: what a synchronous loop would have to take.
+// Gives all forces of a model one step, as a synchronous loop requires, and scales steps.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 
 namespace noli::audit {
 
-/// Calls each(list) of each kind of forces.
+/// Calls each(list) for each kind of force.
 template <class Model, class Each>
 void for_each_list(Model& model, const Each& each) {
   std::apply([&](auto&... list) { (each(list), ...); }, model.forces.lists());
 }
 
-/// The least step of a force, rounded down to those of groups; of a model without forces, that of its gravity, else a
-/// window.
+/// The least step of any force, rounded down to a step of a group. Without forces, gravity's step; without gravity too,
+/// the window.
 template <int Dim>
 double least_step(integrator::Model<double, Dim>& model) {
   double least = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ double least_step(integrator::Model<double, Dim>& model) {
   return std::ldexp(model.window_length, -integrator::step_exponent(least, model.window_length));
 }
 
-/// Gives all forces this step; gravity too, and all first layers of contact the shortest of theirs.
+/// Sets the step of all forces and of gravity, and sets all first layers of contact to the shortest of their steps.
 template <int Dim>
 void set_steps(integrator::Model<double, Dim>& model, double step) {
   for_each_list(model, [step](auto& list) { std::fill(list.steps.begin(), list.steps.end(), step); });
@@ -45,7 +45,7 @@ void set_steps(integrator::Model<double, Dim>& model, double step) {
   for (auto& m : model.contact->materials) m.step = least;
 }
 
-/// Makes all steps so many times longer, those of gravity and of layers too.
+/// Multiplies all steps by `factor`, those of gravity and of layers too.
 template <int Dim>
 void scale_steps(integrator::Model<double, Dim>& model, double factor) {
   for_each_list(model, [factor](auto& list) {

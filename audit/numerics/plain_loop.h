@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the integrator is measured against: the loop that one writes when all forces have one step. The same forces, the
-// same formulas, no clocks, no books, no recording.
-//
-// What this does not do: no damping, no scripts, no contact; and it does not scale steps: the work of a force does not
-// depend on them.
+// Implements the baseline for the integrator: the plain loop for forces that all have one step. It uses the same forces
+// and formulas, without clocks, energy accounts or recording. It has no damping, no scripts and no contact.
 #pragma once
 
 #include <cstdint>
@@ -33,10 +30,10 @@ class PlainLoop {
     }
   }
 
-  /// Half a kick: before the first step() it makes the scheme one of second order from the start.
+  /// Half a kick. Call before the first step() to make the scheme second order from the start.
   void start() { kick_all(0.5 * step_, v_); }
 
-  /// One step of Verlet's method: all vertices drift, all forces kick.
+  /// One step of Verlet's method: all vertices drift, then all forces kick.
   [[gnu::flatten]] void step() {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_[i];
     kick_all(step_, v_);
@@ -47,7 +44,7 @@ class PlainLoop {
   }
 
   const std::vector<Vec>& positions() const { return x_; }
-  /// Half way through the last kick: those of this time, if start() was called.
+  /// Velocities halfway through the last kick. If start() was called, they are those of the current time.
   std::vector<Vec> mean_velocities() const {
     std::vector<Vec> v = v_;
     kick_all(-0.5 * step_, v);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The model of a run, its numbers converted one by one: what a scene was rounded to when it was built is part of the
-// scene, so all precisions integrate the same thing.
-//
-// What this does not do: it builds no model (integrator/scene/build_model.h), and computes nothing again.
+// Converts a model from double to MPFR numbers, value by value. Nothing is recomputed from the scene: the rounding done
+// by build_model is part of the model, so all precisions integrate the same one.
 #pragma once
 
 #include <tuple>

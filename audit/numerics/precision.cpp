@@ -15,7 +15,7 @@
 namespace noli::audit {
 namespace {
 
-/// Differences of runs are computed with this precision, in which those of doubles are exact but for the last squares.
+/// The precision for differences between runs. Differences of doubles are exact in it; only their squares may round.
 constexpr Arithmetic measuring{MpfrNumber::most_bits, false};
 
 template <int Dim>
@@ -56,7 +56,7 @@ class Audit {
 
   // --- A window ------------------------------------------------------------------------------------------------------
 
-  /// False when it was not run to its end: then it does not count.
+  /// False if the window was not run to its end; then it does not count.
   bool run_window() {
     const integrator::Stop stop = [this] { return stopped(); };
     const double begin = engine_.time();
@@ -106,7 +106,7 @@ class Audit {
     }
   }
 
-  // --- The first run is double, bit for bit --------------------------------------------------------------------------
+  // --- The first run must equal double, bit for bit ------------------------------------------------------------------
 
   void compare_bits(const State& state) {
     Replay<Dim>& replay = *replays_.front();
@@ -133,7 +133,7 @@ class Audit {
     if (!all_same_bits(state.angular_momentum, other.angular_momentum)) comparison.differ(t, "angular momentum");
   }
 
-  // --- How far apart -------------------------------------------------------------------------------------------------
+  // --- Distance between runs -----------------------------------------------------------------------------------------
 
   template <class A, class B>
   static MpfrNumber squared_distance(const A& a, const B& b) {
@@ -187,7 +187,7 @@ class Audit {
     run.drifts.push_back(drift);
   }
 
-  /// Of the last run.
+  /// Compares double with the last run, the most precise one.
   void measure_energy(const State& state) {
     if (outcome_.runs.back().ended) return;
     const MpfrScope scope(measuring);
@@ -202,7 +202,7 @@ class Audit {
 
   // --- Times ---------------------------------------------------------------------------------------------------------
 
-  /// Forces before layers of contact, as the engine has it (Engine::run_next), and a window's end last.
+  /// Forces before layers of contact, as in Engine::run_next, and a window's end last.
   void take_clocks(const integrator::Model<double, Dim>& model) {
     std::uint64_t rank = 0;
     for (const auto& group : engine_.groups()) {

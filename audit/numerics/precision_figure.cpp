@@ -21,16 +21,16 @@ using Point = Svg::Point;
 
 constexpr double left = 96, right = 700;
 constexpr double first_top = 50, panel_height = 200, panel_stride = 270;
-constexpr std::size_t most_columns = 600;  ///< about one for each pixel
+constexpr std::size_t most_columns = 600;  ///< about one per pixel
 constexpr const char* grey = "#444444";
 
-/// Sizes, one for each window: what is drawn of them is the greatest of each column.
+/// Absolute values, one for each window. The figure shows the greatest of each column.
 struct Curve {
   std::string name;
   std::vector<double> values;
 };
 
-/// The decimal logarithms of the curves' values, to pixels, in whole powers of ten.
+/// Maps times and decimal logarithms of values to pixels. The axis ends at whole powers of ten.
 struct LogField {
   Scale time, power;
 
@@ -66,7 +66,7 @@ struct LogField {
   }
 };
 
-/// A logarithm has no place for 0: the line begins where there is something, and lies on the border when it is gone.
+/// Zero has no logarithm: the line begins at the first value that is not zero, and later zeros lie on the border.
 std::vector<Point> points_of(const LogField& field, const std::vector<double>& times, const Curve& curve) {
   const std::size_t n = curve.values.size(), stride = (n + most_columns - 1) / most_columns;
   std::vector<Point> points;
@@ -101,7 +101,7 @@ void draw(Svg& svg, const std::vector<double>& times, const Panel& panel, double
   }
 }
 
-/// A quantity in which double is apart from the other precisions.
+/// A quantity in which double differs from the other precisions.
 struct Quantity {
   const char* words;
   double Drift::*drift;
@@ -111,7 +111,7 @@ constexpr Quantity quantities[] = {{"position, greatest [m]", &Drift::position},
                                    {"momentum [N s]", &Drift::momentum},
                                    {"angular mom. [N m s]", &Drift::angular_momentum}};
 
-/// A curve for each precision but the first, which is double itself.
+/// A curve for each precision except the first, which is double itself.
 Panel drifts(const PrecisionOutcome& outcome, const Quantity& quantity) {
   Panel panel{quantity.words, {}};
   for (std::size_t i = 1; i < outcome.runs.size(); ++i) {

@@ -14,13 +14,13 @@ namespace {
 
 std::string three_digits(double x) { return fmt::format("{:.3g}", x); }
 
-/// The last window that is as far as runs can be compared.
+/// The last window for which the runs can be compared.
 const EnergyError* last_in_order(const PrecisionOutcome& outcome) {
   const std::size_t windows = outcome.windows_in_order();
   return windows > 0 ? &outcome.energies[windows - 1] : nullptr;
 }
 
-/// Of the first windows [m].
+/// The greatest position drift of the first windows [m].
 double greatest_position(const PrecisionRun& run, std::size_t windows) {
   double greatest = 0;
   for (std::size_t i = 0; i < std::min(windows, run.drifts.size()); ++i) {
@@ -29,7 +29,7 @@ double greatest_position(const PrecisionRun& run, std::size_t windows) {
   return greatest;
 }
 
-/// Of a pair: of one feature, then of the other.
+/// The vertices of one feature of the pair, then those of the other.
 std::span<const VertexId> vertices_of(const certificates::Stencil& pair) { return {pair.vertices.data(), pair.size()}; }
 
 std::string vertices_text(const certificates::Stencil& pair) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `noli audit precision` says: text, JSON, and a picture of drifts over time.
+// Writes the results of `noli audit precision`: text, JSON, and a figure of drifts over time.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace noli::audit {
 
-/// "same": 53 bits yield double, bit for bit, in all windows; "differs"; "undecided": not all windows were run.
+/// "same": 53 bits reproduce double, bit for bit, in all windows; "differs"; "undecided": not all windows were run.
 const char* precision_verdict(const PrecisionOutcome& outcome);
 
 report::Answer precision_answer(const PrecisionOutcome& outcome);
@@ -19,9 +19,9 @@ report::Answer precision_answer(const PrecisionOutcome& outcome);
 /// Without `timing`.
 Json precision_json(const PrecisionOutcome& outcome);
 
-/// From above: how far double is from the other precisions in position, energy, momentum and angular momentum, and what
-/// of its energy error is truncation and what rounding. All over time, on logarithmic scales, with a line where the
-/// order of events changes.
+/// From top to bottom: the distance of double from the other precisions in position, energy, momentum and angular
+/// momentum, then truncation and rounding in its energy error. All are plotted over time on logarithmic scales, with a
+/// line where the order of events changes.
 std::string precision_svg(const PrecisionOutcome& outcome, const std::string& title);
 
 }  // namespace noli::audit

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run of a scene in numbers of any precision that does what the run in double did, event by event, and tells where
-// the two part.
+// Replays a run in double in numbers of any precision, event by event, and finds where the two runs diverge.
 //
-// Times are the doubles of that run in all precisions; a time that passes between two events is their difference,
-// rounded once. Everything else is computed anew, the constants of the model being the doubles of the scene.
-//
-// What this does not do: it measures no distances between runs (audit/numerics/precision.h).
+// Event times are the doubles of that run in all precisions; the time between two events is their difference, rounded
+// once. The constants of the model are the doubles of the scene. Everything else is computed anew.
+// audit/numerics/precision.h measures distances between runs.
 #pragma once
 
 #include <algorithm>
@@ -25,23 +23,23 @@
 
 namespace noli::audit {
 
-/// Same bits; any NaN is as good as another.
+/// True if both have the same bits; all NaNs count as the same.
 inline bool same_bits(double a, const MpfrNumber& b) {
   if (std::isnan(a)) return b.is_nan();
   return b == MpfrNumber(a) && std::signbit(a) == b.negative();
 }
 
-/// Of two vectors.
+/// same_bits for all components of two vectors.
 template <class A, class B>
 bool all_same_bits(const A& a, const B& b) {
   return std::equal(a.begin(), a.end(), b.begin(), same_bits);
 }
 
-/// The recorder of a replay: compares with the log as events come.
+/// The recorder of a replay. It compares each event with the log.
 template <int Dim>
 class Comparison : public integrator::Uncounted {
  public:
-  /// `bits`: look at breakpoints, number by number.
+  /// `bits`: also compare breakpoints, number by number.
   explicit Comparison(bool bits) : bits_(bits) {}
 
   void follow(const EventLog<Dim>& log) {
@@ -68,7 +66,7 @@ class Comparison : public integrator::Uncounted {
     if (here.sticks != there.sticks) changes_.sticks.add(change);
   }
 
-  /// Whether all breakpoints of the log have come.
+  /// Records a difference if a breakpoint of the log did not occur.
   void conclude(double end) {
     if (bits_ && !difference_ && next_breakpoint_ != log_->breakpoints().size()) {
       difference_ = {end, "breakpoints that never came"};
@@ -98,13 +96,13 @@ class Replay {
   using Number = MpfrNumber;
   using State = integrator::State<Number, Dim>;
 
-  /// `bits`: it is to be the run in double, number by number.
+  /// `bits`: expect the run in double, bit for bit.
   Replay(const Arithmetic& arithmetic, bool bits, const integrator::Model<double, Dim>& model)
       : arithmetic_(arithmetic), comparison_(bits), engine_(scoped(arithmetic, model)) {}
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  /// Runs the next window; after a stop this must not be used again. Throws integrator::ContactLimit.
+  /// Runs the next window. After a stop, do not use this object again. Throws integrator::ContactLimit.
   void run_window(const EventLog<Dim>& log, const integrator::Stop& stop) {
     const MpfrScope scope(arithmetic_);
     comparison_.follow(log);
@@ -116,7 +114,7 @@ class Replay {
   }
 
   const auto& particles() const { return engine_.particles(); }
-  /// At the end of the last window.
+  /// The state at the end of the last window.
   const State& state() const { return state_; }
   const Number& given() const { return given_; }  ///< Books::given() since time 0 [J]
 

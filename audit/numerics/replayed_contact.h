@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact in a run that does what another run did: layers fire when they did there and for the pairs for which they did
-// there, with the formulas of integrator/layer_fire.h in numbers of type S. Whether a layer acts, between which
-// points, with restitution or not, and whether friction stops the slip follows from this run's own positions.
+// Replays contact: layers fire at the times and for the pairs of a logged run, with the formulas of
+// integrator/layer_fire.h in numbers of type S. This run's own positions decide whether a layer acts, between which
+// points, whether restitution counts, and whether friction stops the slip.
 //
-// Times, thicknesses, stiffnesses and steps are the doubles of the run that is followed.
-//
-// What this does not do: it has no certificates, so a pair that comes near in this run alone goes unseen.
+// Times, thicknesses, stiffnesses and steps are the doubles of the logged run. There are no certificates, so a pair
+// that comes near only in this run is not seen.
 #pragma once
 
 #include <limits>
@@ -21,7 +20,7 @@
 
 namespace noli::audit {
 
-/// Stands in an Engine<S, Dim, ReplayedContact<S, Dim>> for integrator::Contact.
+/// Replaces integrator::Contact in an Engine<S, Dim, ReplayedContact<S, Dim>>.
 template <class S, int Dim>
 class ReplayedContact {
  public:
@@ -34,7 +33,7 @@ class ReplayedContact {
   ReplayedContact(const ReplayedContact&) = delete;
   ReplayedContact& operator=(const ReplayedContact&) = delete;
 
-  /// What the next window does. The log stays as it is until the window, and questions about its end, are done.
+  /// Sets the log of the next window. Keep it unchanged until the window and all queries about its end are done.
   void follow(const EventLog<Dim>& log) {
     log_ = &log;
     next_ = 0;
@@ -89,7 +88,7 @@ class ReplayedContact {
     while (next_layer() <= 0) fire_next(record, books, scripts, falling);
   }
 
-  /// As Contact has it; of the pairs that are active there.
+  /// Like Contact::for_each_acting, for the pairs that are active in the log.
   template <class Each>
   void for_each_acting(Each&& each) const {
     const auto position = [this](VertexId v) { return particles_[v].x; };
@@ -109,7 +108,7 @@ class ReplayedContact {
   std::size_t next_ = 0;
   integrator::LayerFire<S, Dim> layer_fire_;
   std::vector<certificates::Stencil> pairs_;  ///< for which a layer fires
-  std::vector<VertexId> struck_;              ///< by it; some more than once
+  std::vector<VertexId> struck_;              ///< by that layer; may repeat
   bool started_ = false;
 };
 

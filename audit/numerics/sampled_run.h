@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs of one model by several methods, in a form in which they can be compared: where everything is at the ends of
-// windows, how fast, and how long it took.
+// Runs one model by several methods and samples positions and velocities at the ends of windows, and the run time, so
+// that they can be compared (integrator_audit.h).
 //
 // Notation
 //   W         the model's window; samples are at the times 0, W, 2 W, ...
-//   v         the velocity of that very time: leapfrog's lie half a step beside it, and are brought back
-//   free      vertices that are neither pinned nor scripted; energies and momenta are theirs
-//
-// What this does not do: it compares nothing (integrator_audit.h does).
+//   v         the velocity at exactly that time: leapfrog's velocities, half a step off, are corrected
+//   free      vertices that are neither pinned nor scripted; energies and momenta count only these
 #pragma once
 
 #include <algorithm>
@@ -34,13 +32,13 @@ template <int Dim>
 struct SampledRun {
   std::vector<Sample<Dim>> samples;
   std::uint64_t events = 0;    ///< forces fired, layers of contact among them
-  std::uint64_t impulses = 0;  ///< of layers of contact alone
-  double seconds = 0;          ///< what the method's thread computed
-  bool finite = true;          ///< else it ends with the last sample that is
-  bool converged = true;       ///< of implicit methods: every step was solved
+  std::uint64_t impulses = 0;  ///< only those of layers of contact
+  double seconds = 0;          ///< CPU time of the method's thread
+  bool finite = true;          ///< if false, the last sample is the last finite one
+  bool converged = true;       ///< implicit methods: every step was solved
 };
 
-/// What is kept, or should be.
+/// The quantities that the motion conserves, or should conserve.
 template <int Dim>
 struct Mechanics {
   double kinetic = 0, potential = 0;  ///< [J]
@@ -51,7 +49,7 @@ struct Mechanics {
   double energy() const { return kinetic + potential; }
 };
 
-/// By vertex: whether forces move it.
+/// For each vertex: whether forces move it.
 template <int Dim>
 std::vector<bool> free_vertices(const integrator::Model<double, Dim>& model) {
   std::vector<bool> free(model.x.size(), true);
@@ -95,15 +93,15 @@ bool is_finite(const Sample<Dim>& sample) {
 
 inline bool stopped(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 
-/// The CPU time of this thread: other work on the machine disturbs it least.
+/// The CPU time of this thread, which other work on the machine disturbs least [s].
 inline double thread_seconds() {
   struct timespec time = {};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Runs `advance`, a window each time it is called, and samples with `look`. Ends early with what is not finite, or
-/// when told to stop.
+/// Calls `advance` once for each window and samples with `look`. Ends early at a sample that is not finite, or on
+/// `stop`.
 template <int Dim, class Advance, class Look>
 void sample_windows(SampledRun<Dim>& run, int windows, const std::atomic<bool>* stop, const Advance& advance,
                     const Look& look) {
@@ -137,7 +135,7 @@ SampledRun<Dim> run_with_clocks(const integrator::Model<double, Dim>& model, int
   return run;
 }
 
-/// Verlet's method as one writes it. Precondition: step divides the window; plain_enough(model).
+/// Verlet's method as a plain loop. Precondition: step divides the window; plain_enough(model).
 template <int Dim>
 SampledRun<Dim> run_plain(const integrator::Model<double, Dim>& model, double step, int windows,
                           const std::atomic<bool>* stop = nullptr) {
@@ -158,7 +156,7 @@ SampledRun<Dim> run_plain(const integrator::Model<double, Dim>& model, double st
   return run;
 }
 
-/// Whether a loop without damping, scripts and contact does.
+/// True if a loop without damping, scripts and contact can run the model.
 template <int Dim>
 bool plain_enough(const integrator::Model<double, Dim>& model) {
   bool damped = false;
@@ -168,7 +166,8 @@ bool plain_enough(const integrator::Model<double, Dim>& model) {
   return !damped && model.scripts.empty() && !model.contact;
 }
 
-/// The largest difference between the energy at the end of a window and at the beginning, relative to the latter.
+/// The largest difference between the energy at the end of a window and at the beginning of the run, relative to the
+/// latter.
 template <int Dim>
 double energy_error(const integrator::Model<double, Dim>& model, const SampledRun<Dim>& run) {
   const double begin = mechanics(model, run.samples.front()).energy();

@@ -21,29 +21,29 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::nanoseconds;
 
-/// `noli fuzz NAME`, what its document calls the number of things that it has tried, and that all was well.
+/// `noli fuzz NAME`, and in its JSON document the key for the number of cases tried and the verdict if all was well.
 struct Fuzzer {
   const char *name, *tried, *well;
 };
 
-/// Every fuzzer that there is: a new one is a line here.
+/// All fuzzers. Add a new one here.
 constexpr Fuzzer fuzzers[] = {{"queries", "queries", "no_difference"},
                               {"trajectories", "trajectories", "no_finding"},
                               {"proofs", "mutants", "no_finding"},
                               {"scenes", "scenes", "no_finding"}};
 
-/// Rows of the sweeps whose ordinary end is a good example: frames apart and in contact, scenes in the plane and in
-/// space, with contact and without.
+/// Rows of the sweeps whose first, ordinary value makes a good example: frames apart and in contact, scenes in the
+/// plane and in space, with and without contact.
 constexpr const char* examples[] = {"frames-offset",   "frames-offset-contact", "steps",
                                     "stiffness-ratio", "speed-contact",         "thickness-plane-contact"};
 
-/// The programs that check proofs, and the word for each on the command line of `noli check`.
+/// The programs that check proofs, and the option of `noli check` that selects each.
 struct CheckerProgram {
   const char *name, *option;
 };
 constexpr CheckerProgram checkers[] = {{"noli_check", ""}, {"noli_check_verified", "--verified"}};
 
-/// Time that a program has beyond what it was told to take.
+/// How long a program may run beyond its time limit.
 constexpr std::chrono::minutes grace{10};
 
 struct Stopped {};
@@ -58,7 +58,7 @@ std::string milliseconds(nanoseconds time) {
   return fmt::format("{}ms", std::chrono::duration_cast<std::chrono::milliseconds>(time).count());
 }
 
-/// Files of a folder that end like this, sorted; none if there is no such folder.
+/// Files of a folder with this extension, sorted; empty if the folder does not exist.
 std::vector<fs::path> files_of(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -69,7 +69,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::string& extens
   return files;
 }
 
-/// The folder in which fuzzers may make their own; it goes again if they did not.
+/// The folder in which fuzzers create theirs; removed at the end if it is new and still empty.
 class FindingsFolder {
  public:
   explicit FindingsFolder(const fs::path& path) : path_(path), made_(fs::create_directories(path)) {}
@@ -137,7 +137,7 @@ class SelfAudit {
     p.words = words;
   }
 
-  /// The document of a program that ended with 0 and this verdict; else the part has failed.
+  /// The document of a program that exited with 0 and this verdict. Otherwise the part fails.
   static Json document(const ProgramEnd& run, const char* verdict, SelfPart& p) {
     Json json = Json::parse(run.out, nullptr, false);
     if (run.exited_with(0) && json.is_object() && json.value("verdict", "") == verdict) return json;
@@ -145,7 +145,7 @@ class SelfAudit {
     return nullptr;
   }
 
-  /// A figure of the document without which nothing was done; else the part has failed.
+  /// Copies a count from the document. If it is missing or zero, nothing was tested and the part fails.
   static bool figure(const Json& json, const char* key, SelfPart& p) {
     const auto found = json.find(key);
     const std::uint64_t number = found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
@@ -204,7 +204,7 @@ class SelfAudit {
     shipped_scenes();
   }
 
-  /// The plain checker is part of `noli`; the verified one is built where there is Coq.
+  /// The plain checker is part of `noli`; the verified one is built only where Coq is installed.
   void look_for(const CheckerProgram& checker) {
     const bool there = ::access((options_.program.parent_path() / checker.name).c_str(), X_OK) == 0;
     if (there) return present_.push_back(checker);
@@ -215,7 +215,7 @@ class SelfAudit {
     });
   }
 
-  /// Holds if each checker exits with these codes: 0 accepted, 1 refuted.
+  /// The part holds if each checker exits with `code`: 0 accepted, 1 refuted.
   void check(const std::vector<std::string>& files, int code, std::uint64_t steps, SelfPart& p) const {
     for (const CheckerProgram& checker : present_) {
       std::vector<std::string> words = {"check", "--porcelain"};
@@ -252,7 +252,7 @@ class SelfAudit {
     check({proof, frames[0], frames[1]}, two.touch ? 1 : 0, 1, p);
   }
 
-  /// Runs scene.json of the folder and checks what was committed; `codes`: how it may end.
+  /// Runs scene.json of the folder and checks the committed windows; `codes`: the exit codes allowed.
   void run_scene(const fs::path& folder, const std::vector<std::string>& more, const std::vector<int>& codes,
                  SelfPart& p) const {
     const std::string run_folder = (folder / "run").string();
@@ -283,7 +283,7 @@ class SelfAudit {
     }
   }
 
-  /// In its short form, recorded in full, as frames have no proofs.
+  /// Runs the scene in its short form and records it in full, because frames have no proofs.
   void shipped_scene(const fs::path& file, SelfPart& p) const {
     p.by_clock = true;
     Json scene = Json::parse(bytes_of(file), nullptr, false);
@@ -291,12 +291,12 @@ class SelfAudit {
     scene["record"] = "full";
     const ScratchFolder scratch;
     write_file(scratch.path() / "scene.json", scene.dump());
-    for (const auto& entry : fs::directory_iterator(file.parent_path())) {  // meshes, which it may name
+    for (const auto& entry : fs::directory_iterator(file.parent_path())) {  // meshes it may refer to
       if (entry.is_directory()) {
         fs::create_directory_symlink(fs::absolute(entry.path()), scratch.path() / entry.path().filename());
       }
     }
-    // A scene may be there to show a contact, and the time may be too short for all of it.
+    // A scene may be meant to end in contact, and the time may be too short to finish it.
     run_scene(
         scratch.path(),
         {"--short", "--time-limit", milliseconds(options_.scene_time), "--threads", std::to_string(options_.threads)},

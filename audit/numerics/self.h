@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sceptical user runs: every way that `noli` has of looking at itself, one after the other, by the `noli`
-// program itself, so that what is judged is what it says and how it exits.
+// Runs every self-test of `noli`, one after the other, for users who want to check it themselves. Each part runs the
+// `noli` program and judges its output and exit code.
 //
 // Parts
 //   rounding   the rounding self-test of the program
-//   labels     the labelled queries at hand, by `noli ccd`
-//   fuzz       each fuzzer, for a time
-//   proofs     what is verified or run, proved, and checked by each checker that is there: frames and scenes that the
-//              program has in it (stability_rows.h), then the scenes of a folder, in their short forms and for a time
-// A part *held*, *failed*, or was *skipped*, because what it needs is not there; what was skipped is not counted as
+//   labels     labelled queries from files, by `noli ccd`
+//   fuzz       each fuzzer, for a limited time
+//   proofs     proofs of verified frames and of scenes, checked by each checker that is installed: built-in examples
+//              (stability_rows.h), then the scenes of a folder in their short forms, for a limited time
+// A part *held*, *failed*, or was *skipped* because something it needs is missing. A skipped part does not count as
 // held.
 //
-// What this does not do: it has no second opinion on what the parts say; each is as good as its own tests.
+// The parts' own verdicts are not checked a second time: each is as good as its own tests.
 #pragma once
 
 #include <atomic>
@@ -32,14 +32,14 @@ namespace noli::audit {
 inline constexpr const char* self_groups[] = {"rounding", "labels", "fuzz", "proofs"};
 
 struct SelfOptions {
-  std::filesystem::path program;                                 ///< the `noli` that looks at itself
-  std::chrono::nanoseconds fuzz_time{std::chrono::seconds(60)};  ///< of each fuzzer
-  std::chrono::nanoseconds scene_time{std::chrono::seconds(5)};  ///< of each scene of the folder
-  std::uint64_t seed = 1;                                        ///< of fuzzers
-  int threads = 0;                                               ///< 0: all there are
-  std::optional<std::filesystem::path> data;                     ///< with queries/*.csv; nothing: skipped
-  std::filesystem::path scenes;                                  ///< need not be there
-  std::vector<std::string> only;                                 ///< groups; none: all
+  std::filesystem::path program;                                 ///< the `noli` to test
+  std::chrono::nanoseconds fuzz_time{std::chrono::seconds(60)};  ///< for each fuzzer
+  std::chrono::nanoseconds scene_time{std::chrono::seconds(5)};  ///< for each scene of the folder
+  std::uint64_t seed = 1;                                        ///< for the fuzzers
+  int threads = 0;                                               ///< 0: all processors
+  std::optional<std::filesystem::path> data;                     ///< with queries/*.csv; unset: skipped
+  std::filesystem::path scenes;                                  ///< need not exist
+  std::vector<std::string> only;                                 ///< groups; empty: all
   std::filesystem::path out;                                     ///< folder for findings of fuzzers
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string& part)> begun;  ///< may be empty
@@ -58,13 +58,12 @@ struct SelfPart {
 
 struct SelfReport {
   std::vector<SelfPart> parts;
-  bool complete = true;  ///< it was not stopped
+  bool complete = true;  ///< false if it was stopped
 
   std::size_t count(PartState state) const;
 };
 
-/// Throws std::runtime_error when the program is not there, std::system_error when the machine does not do what it has
-/// to.
+/// Throws std::runtime_error if the program does not exist, std::system_error if a system call fails.
 SelfReport audit_self(const SelfOptions& options);
 
 }  // namespace noli::audit

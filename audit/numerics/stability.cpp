@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps what the point was asked with.
+/// Keeps the input of the point.
 void save(const fs::path& scratch, const std::string& name, const StabilityOptions& options, StabilityPoint& point) {
   point.saved = options.out / name;
   fs::create_directories(point.saved);

@@ -23,14 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A table of numbers with a line of names (`noli export --figure ... -o FILE.csv`): its columns.
+/// The columns of a table of numbers with a header line (`noli export --figure ... -o FILE.csv`).
 using Columns = std::map<std::string, std::vector<double>>;
 
 Columns columns_of(const std::string& text) {
   Columns columns;
   std::vector<std::vector<double>*> in_order;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line) && !lines.eof();) {  // a last line that was cut off does not count
+  for (std::string line; std::getline(lines, line) && !lines.eof();) {  // an incomplete last line does not count
     const bool names = in_order.empty();
     std::istringstream cells(line);
     std::string cell;
@@ -48,7 +48,7 @@ bool all_finite(const Columns& columns) {
   });
 }
 
-/// Asks one point; members are filled in as promises are looked at.
+/// Tests one point. point_ is filled in promise by promise.
 class Asking {
  public:
   Asking(const fs::path& folder, const StabilityOptions& options) : folder_(folder), options_(options) {}
@@ -90,7 +90,7 @@ class Asking {
     const std::string expected = what.touch ? "verdict=contact " : "verdict=proved ";
     if (run.code == (what.touch ? 1 : 0) && run.out.starts_with(expected)) return point_;
     gives("answer", line_of(run.code <= 2 ? run.out : run.err));
-    // What is no answer is none that is wrong.
+    // "No answer" does not count as a wrong answer.
     if (run.code <= 1)
       finding(fmt::format("{}, but they {}", first_line(run.out), what.touch ? "touch" : "stay apart"));
     return point_;
@@ -116,7 +116,7 @@ class Asking {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Without the folder, which has another name each time.
+  /// The first complaint on one line, without the folder, whose name differs each time.
   std::string line_of(const std::string& text) const {
     const std::string prefix = path("");
     std::string line = on_one_line(first_complaint(text));
@@ -124,7 +124,7 @@ class Asking {
     return line;
   }
 
-  /// The first promise that is not kept.
+  /// Records the first promise that is broken.
   void gives(const std::string& what, const std::string& words) {
     if (!point_.gives.empty()) return;
     point_.gives = what;
@@ -133,13 +133,13 @@ class Asking {
 
   void finding(const std::string& words) { point_.findings.push_back(on_one_line(words)); }
 
-  /// A promise that a run with exit code 0 has broken.
+  /// Records a promise broken by a run with exit code 0.
   void broken(const std::string& what, const std::string& words) {
     gives(what, words);
     finding(fmt::format("exit 0, but {}: {}", what, words));
   }
 
-  /// By itself, and with a code that a user may meet.
+  /// True if the program exited by itself with a documented code.
   bool ended_well(const ProgramEnd& run) {
     if (run.kind == ProgramEnd::Kind::stopped) return false;
     if (run.kind == ProgramEnd::Kind::exited && run.code >= 0 && run.code <= 3) return true;
@@ -148,7 +148,7 @@ class Asking {
     return false;
   }
 
-  /// Whether it has what is read of it.
+  /// True if the document has all members that are read below.
   static bool whole(const Json& document) {
     return document.is_object() && document.value("verdict", Json()).is_string() &&
            document.value("end", Json()).is_string() && document.value("time", Json()).is_number() &&
@@ -156,7 +156,7 @@ class Asking {
            document.value("windows_total", Json()).is_number_unsigned();
   }
 
-  /// Whether verdict and exit code do, and what ends with 0 has come to its end.
+  /// True if verdict and exit code agree, and a run that exits with 0 reached its end.
   bool agrees(const ProgramEnd& run, const Json& document) {
     if (run.code == 3 && !run.err.empty() && run.out.empty()) return true;
     static const std::map<std::string, int> codes = {{"no_contact", 0}, {"contact", 1},  {"too_near", 1},
@@ -176,7 +176,7 @@ class Asking {
     return false;
   }
 
-  /// Whatever a run ends with, what it has committed never touches.
+  /// However a run ends, its committed windows must be free of contact.
   void verify_again(std::uint64_t windows) {
     const ProgramEnd run = noli({"verify", "--porcelain", path("run"), "--threads", "1"});
     if (!ended_well(run)) return;
@@ -200,7 +200,7 @@ class Asking {
     return std::nullopt;
   }
 
-  /// `said`: the program says that the energy has gone astray.
+  /// `said`: the program reported the run as unstable.
   void look_at_series(bool free, bool said) {
     const auto energy = series("energy"), momentum = series("momentum");
     if (!energy || !momentum) return;
@@ -211,7 +211,7 @@ class Asking {
   }
 
   void look_at_energy(const Columns& energy, bool said) {
-    // Scenes begin in their shape at rest: what the first window's end has is what the beginning had, and the work.
+    // Scenes begin in their rest shape: the energy at the first window's end is the initial one plus the work.
     double work = 0;
     for (const auto& [name, column] : energy) {
       const auto is = [&quantity = name](const char* list) {

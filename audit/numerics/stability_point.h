@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One point of the sweeps of stability.h: a scene, or two frames, and what `noli` makes of it.
+// Tests one point of the sweeps of stability.h: runs `noli` on a scene or on two frames.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace noli::audit {
 
-/// `folder` is empty, and takes the input and the runs. The value is not filled in; after a stop the rest is of no use.
-/// Throws as audit_stability() does.
+/// Writes the input and the runs into `folder`, which must be empty. Does not fill in the value. After a stop the other
+/// results are meaningless. Throws like audit_stability().
 StabilityPoint ask_point(const StabilityCase& what, const std::filesystem::path& folder,
                          const StabilityOptions& options);
 
-/// Of a file; nothing where it cannot be read.
+/// The bytes of a file; empty if it cannot be read.
 std::string bytes_of(const std::filesystem::path& path);
 
 }  // namespace noli::audit

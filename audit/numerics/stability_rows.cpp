@@ -22,7 +22,7 @@ Json lasting(Json scene, double duration, int windows) {
   return scene;
 }
 
-/// A sheet that flies and spins; with contact one that flies against another one.
+/// A sheet that flies and spins; with contact, it flies against another one.
 Json sheets(bool contact) {
   Json scene = {{"noli_scene", 1}, {"bodies", Json::array()}};
   Json body = {{"name", "sheet"},
@@ -59,7 +59,7 @@ Json chains(bool contact) {
   return lasting(std::move(scene), 0.6, 12);
 }
 
-/// A number, or all that are in arrays.
+/// Scales a number, or all numbers in nested arrays.
 void scale(Json& numbers, double factor) {
   if (numbers.is_number()) numbers = numbers.get<double>() * factor;
   if (numbers.is_array()) {
@@ -67,12 +67,12 @@ void scale(Json& numbers, double factor) {
   }
 }
 
-/// One cell of the first body, or one spring, has another property.
+/// Changes a property of one cell, or one spring, of the first body.
 Json patched(Json scene, const char* property, double factor) {
   const bool plane = scene.contains("dimension");
   const Json box = plane ? Json{{-0.2, -1}, {0, 1}} : Json{{-0.05, -0.05, -1}, {0.05, 0.05, 1}};
   Json& body = scene["bodies"][0];
-  if (!plane) body["transform"].erase("rotate");  // the box is one of the start
+  if (!plane) body["transform"].erase("rotate");  // the box refers to the start position
   body["patches"] = {{{"box", box}, {property, factor}}};
   return scene;
 }
@@ -85,8 +85,8 @@ Json sheets_about_to_meet(double thickness) {
   return scene;
 }
 
-/// Steps of a stiff spring are as much shorter as its frequency is higher: so that the work stays the same beyond a
-/// ratio of a million, the run is as much shorter.
+/// The step of a stiff spring shrinks as its frequency grows. Beyond a ratio of a million the run is shortened in
+/// proportion, so that the computing time stays the same.
 Json stiffness_ratio(bool contact, double ratio) {
   Json scene = patched(chains(contact), "stiffness_factor", ratio);
   const double shorter = std::max(1.0, std::sqrt(ratio / 1e6));
@@ -109,14 +109,14 @@ Json thickness(Json scene, double value) {
   return scene;
 }
 
-/// As far as at ordinary speed.
+/// Travels the same distance as at ordinary speed.
 Json speed(Json scene, double factor) {
   const double duration = scene["duration"].get<double>() / factor;
   for (const char* const motion : {"velocity", "spin"}) scale(scene["bodies"][0][motion], factor);
   return lasting(std::move(scene), duration, 10);
 }
 
-/// The first layer is no stiffer than it has to be at ordinary speed: deeper ones have to do.
+/// The first layer is only as stiff as ordinary speed requires, so deeper ones have to act.
 Json speed_against_weak_layers(double factor) {
   Json scene = speed(chains(true), factor);
   scene["contact"]["stiffness"] = 2500;
@@ -132,8 +132,8 @@ Json offset(Json scene, double value) {
   return scene;
 }
 
-/// All lengths and speeds times a factor. Points and masses at vertices, as products of lengths leave the range of
-/// double before lengths do.
+/// Multiplies all lengths and speeds by a factor. Uses masses at vertices, because products of lengths leave the range
+/// of double before lengths do.
 Json magnitude(bool contact, double factor) {
   Json scene = chains(contact);
   for (Json& body : scene["bodies"]) {
@@ -145,7 +145,7 @@ Json magnitude(bool contact, double factor) {
   return scene;
 }
 
-/// A sheet whose cells are so many times longer than wide.
+/// A sheet whose cells are `ratio` times longer than wide.
 Json slivers(bool contact, double ratio) {
   Json scene = contact ? sheets_about_to_meet(0.01 / ratio) : sheets(false);
   scene["bodies"][0]["mesh"]["grid"]["size"] = {0.3, 0.3 / ratio};
@@ -153,7 +153,7 @@ Json slivers(bool contact, double ratio) {
   return lasting(std::move(scene), 0.2 / ratio, 10);
 }
 
-/// Coordinates and speeds in one direction are subnormal, or nearly.
+/// Makes coordinates and speeds in one direction subnormal, or nearly so.
 Json subnormal(bool contact, double value) {
   Json scene = sheets(contact);
   Json& body = scene["bodies"][contact ? 1 : 0];
@@ -178,9 +178,8 @@ Json layer_steps(double stability, bool unstable) {
   return scene;
 }
 
-/// A mass between a stiff spring and a soft one whose step is ten times as long, both held at their other ends:
-/// scenes/resonance.json has the two ends of this row. With contact a free point bounces off the soft spring on its
-/// way.
+/// A mass between a stiff spring and a soft one with a step ten times as long, both held at their other ends.
+/// scenes/resonance.json shows the two ends of this row. With contact, a free point also bounces off the soft spring.
 Json resonance(bool contact, double step) {
   const Json soft = {{"box", {{0, -0.5}, {1, 0.5}}}, {"stiffness_factor", 0.25}, {"steps", {{"stretch", 10 * step}}}};
   const Json body = {{"name", "mass"},
@@ -191,7 +190,7 @@ Json resonance(bool contact, double step) {
                      {"patches", Json::array({soft})},
                      {"pin", {"first", "last"}}};
   Json scene = {{"noli_scene", 1}, {"dimension", 2}, {"steps", "own"}, {"allow_unstable", true}};
-  scene["bodies"] = Json::array({body});  // what {body} is depends on the compiler
+  scene["bodies"] = Json::array({body});  // compilers disagree on the meaning of {body}
   if (contact) {
     const double speed = 1e-6, thickness = 1e-3;
     scene["bodies"].push_back({{"name", "point"},
@@ -205,8 +204,8 @@ Json resonance(bool contact, double step) {
 
 // --- frames ----------------------------------------------------------------------------------------------------------
 
-/// A face, and above it another one whose lowest corner comes down to half a unit above its plane, or to half a unit
-/// below; all places changed.
+/// A face, and above it another one whose lowest corner moves down to half a unit above its plane, or half a unit below
+/// if they `touch`. `change` maps all positions.
 FramesCase corner_over_face(bool touch, const std::function<Position(Position)>& change) {
   Frame frame;
   frame.mesh.vertex_count = 6;
@@ -222,7 +221,8 @@ FramesCase corner_over_face(bool touch, const std::function<Position(Position)>&
   return result;
 }
 
-/// The powers of two below: exact, so that the answer is that of the frames as they were, as long as nothing is lost.
+/// The greatest power of two up to `value`: scaling by it is exact and leaves the answer the same, as long as nothing
+/// underflows.
 double power_below(double value) { return std::ldexp(1.0, std::ilogb(value)); }
 
 FramesCase frames_magnitude(bool touch, double value) {
@@ -232,7 +232,7 @@ FramesCase frames_magnitude(bool touch, double value) {
   });
 }
 
-/// Heights are small, and as multiples of a half exact as long as half of the unit is a double.
+/// Makes heights small. They are multiples of half a unit, so exact as long as half the unit is a double.
 FramesCase frames_height(bool touch, double value) {
   const double factor = power_below(value);
   return corner_over_face(touch, [factor](const Position& x) { return Position{x[0], x[1], x[2] * factor}; });
@@ -243,7 +243,7 @@ FramesCase frames_sliver(bool touch, double ratio) {
   return corner_over_face(touch, [factor](const Position& x) { return Position{x[0], x[1] * factor, x[2]}; });
 }
 
-/// Exact as long as a half can be told beside the offset, which is that of all.
+/// Moves all positions by an offset. Exact as long as a half does not round away beside it.
 FramesCase frames_offset(bool touch, double value) {
   const double far = power_below(value);
   return corner_over_face(touch, [far](const Position& x) { return Position{x[0] + far, x[1] + far, x[2] + far}; });
@@ -253,7 +253,7 @@ FramesCase frames_offset(bool touch, double value) {
 
 class Rows {
  public:
-  /// With contact and without.
+  /// Adds two rows: without contact and with it.
   void scenes(const std::string& name, const std::string& varied, const std::vector<double>& values,
               const std::function<Json(bool, double)>& make) {
     for (const bool contact : {false, true}) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `noli audit stability` varies: each row takes one quantity from the ordinary to the extreme (design, "Audit",
-// stiff and extreme), in a small scene, or in two frames of which it is known whether anything touches between them.
+// Builds the sweeps of `noli audit stability`. Each row takes one quantity from the ordinary to the extreme (design,
+// "Audit", stiff and extreme), in a small scene, or in two frames for which it is known whether anything touches.
 //
 // Notation
 //   sheet    3 x 3 cells of 10 cm, thin and elastic, free, that flies and spins
 //   chain    in the plane, four springs of 25 cm between free masses, that flies and spins
-//   other    with contact: a sheet, or a chain, at rest before the first, and free too
-// Every scene is without gravity, damping, friction and loss, and begins in its shape at rest: its energy has to stay
-// what it is, with nothing but kinetic energy at the start, and where nothing is pinned so have its momenta. Where an
-// extreme makes steps shorter the run is as much shorter, and what is to meet begins as much nearer.
+//   other    with contact: a sheet, or a chain, at rest in front of the first, and free too
+// No scene has gravity, damping, friction or loss, and each begins in its rest shape with only kinetic energy. So its
+// energy must stay constant, and if nothing is pinned, its momenta too. Where an extreme makes steps shorter, the run
+// is shorter in proportion, and bodies that are to meet begin nearer to each other.
 //
-// What this does not do: one quantity at a time is extreme, not two.
+// Only one quantity at a time is extreme.
 #pragma once
 
 #include <array>
@@ -22,13 +22,13 @@
 
 namespace noli::audit {
 
-/// To be run: the text of a scene file.
+/// A scene to run: the text of a scene file.
 struct SceneCase {
   std::string scene;
   bool free = true;  ///< nothing is pinned: momentum is kept
 };
 
-/// To be verified: two frames as PLY files, and whether anything touches between them.
+/// Two frames to verify, as texts of PLY files, and whether anything touches between them.
 struct FramesCase {
   std::array<std::string, 2> frames;
   bool touch = false;
@@ -38,13 +38,13 @@ using StabilityCase = std::variant<SceneCase, FramesCase>;
 
 struct StabilityRow {
   std::string name;
-  std::string varied;          ///< what the values are, with their unit
+  std::string varied;          ///< the quantity that varies, with its unit
   bool contact = false;        ///< whether the scene has contact, or the frames do
   std::vector<double> values;  ///< from the ordinary to the extreme
   std::function<StabilityCase(double)> make;
 };
 
-/// All rows, in the order of the table. Names are different.
+/// All rows, in the order of the table. Names are unique.
 std::vector<StabilityRow> stability_rows();
 
 }  // namespace noli::audit

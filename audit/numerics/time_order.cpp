@@ -9,7 +9,7 @@
 namespace noli::audit {
 namespace {
 
-/// Precondition: within a scope of at least 106 bits, in which it is exact.
+/// k h. Precondition: a scope of at least 106 bits, so that the product is exact.
 MpfrNumber exact_time(const TimedEvent& event) {
   return MpfrNumber(static_cast<double>(event.k)) * MpfrNumber(event.clock->step);
 }

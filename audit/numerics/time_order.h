@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Event times in higher precision: would the events of a run still come in the same order?
+// Tests whether the events of a run would keep their order if their times were computed exactly.
 //
 // Notation
-//   k, h    an event's time is fl(k h), h being its clock's step; exactly it is k h, a product of two numbers of 53
-//           bits
-//   rank    of two events of one time, the one of lower rank comes first
-//   tie     two events of the same time fl(k h) = fl(k' h') although k h < k' h', the first being of higher rank
-// Rounding is monotone, so events that are apart in double have the order of their exact times: only ties can change
-// it.
+//   k, h    an event's time is fl(k h), h being its clock's step; its exact time is k h, a product of two 53-bit
+//           numbers
+//   rank    of two events at one time, the one of lower rank comes first
+//   tie     two events with fl(k h) = fl(k' h') although k h < k' h', the first having the higher rank
+// Rounding is monotone, so events at different times in double have the order of their exact times. Only ties can
+// change it.
 //
-// What this does not do: certificates are no events of the motion, and scripts' breakpoints have exact times. Where
-// each force has a clock of its own, those of one kind have one rank: their order at one time is not looked at.
+// Certificates are left out because they do not change the motion, and scripts because their breakpoints have exact
+// times. If each force has its own clock, those of one kind share one rank: their order at one time is not examined.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace noli::audit {
 
-/// Something that happens at the times k h.
+/// A clock that ticks at the times k h.
 struct TimedClock {
   double step = 0;  ///< h [s]
   std::string name;
@@ -35,7 +35,7 @@ struct TimedEvent {
   const TimedClock* clock = nullptr;
 };
 
-/// Two events that double has in the other order.
+/// Two events whose order in double is reversed.
 struct TimeTie {
   double time = 0;            ///< of both [s]
   std::string first, second;  ///< in the order of exact times

@@ -28,14 +28,14 @@ constexpr std::chrono::milliseconds usual_pause{50}, short_pause{2};
 
 [[noreturn]] void fail(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
 
-/// Keeps the beginning.
+/// Appends output up to a limit, then a note.
 void keep(std::string& words, std::string_view next) {
-  if (words.size() > most_words) return;  // the note is there
+  if (words.size() > most_words) return;  // the note has been added
   words.append(next.substr(0, most_words - words.size()));
   if (words.size() == most_words) words += "\n[cut off after 1 MB]\n";
 }
 
-/// The first three go before the fourth, which may have the number of one of them.
+/// The first three descriptors are moved before the fourth, which may have the number of one of them.
 pid_t start(std::vector<std::string> words, const std::array<int, 4>& given) {
   require_startable(words[0]);
   std::vector<char*> argv;
@@ -120,7 +120,7 @@ Child::~Child() {
   if (pid_ >= 0) end_it(std::chrono::milliseconds(0));
 }
 
-/// Whether something was read.
+/// Reads from a pipe; returns whether there was something.
 bool Child::take(std::size_t pipe) {
   std::array<char, 65536> part;
   const ssize_t got = ::read(pipes_[pipe].get(), part.data(), part.size());
@@ -199,7 +199,7 @@ ProgramEnd Child::end(ProgramEnd::Kind why, std::chrono::milliseconds patience) 
     if (WIFSIGNALED(status)) result.kind = ProgramEnd::Kind::signalled;
     result.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   }
-  constexpr int most_parts = 64;  // its group may have one left that writes on and on
+  constexpr int most_parts = 64;  // a process left in its group may write forever
   for (const std::size_t pipe : {1, 2}) {
     for (int part = 0; part < most_parts && pipes_[pipe].get() >= 0 && take(pipe); ++part) {
     }
@@ -210,7 +210,8 @@ ProgramEnd Child::end(ProgramEnd::Kind why, std::chrono::milliseconds patience) 
   return result;
 }
 
-/// Its status, if nobody else has taken it. What is left of its group is ended before its number can be another's.
+/// Its status, unless somebody else has taken it. Ends the rest of its group first, while the number of the group
+/// cannot belong to another one.
 std::optional<int> Child::end_it(std::chrono::milliseconds patience) {
   if (pid_ < 0) return std::nullopt;
   const auto signal = [this](int number) {

@@ -7,7 +7,7 @@
 namespace noli {
 namespace {
 
-/// Whether a shell reads the word as it stands.
+/// Whether the word needs no quotes in a shell.
 bool plain(const std::string& word) {
   constexpr std::string_view harmless = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=,:@%";
   return !word.empty() && word.find_first_not_of(harmless) == std::string::npos;

@@ -19,7 +19,7 @@ fs::path path_of(ScratchFolder::Place place) {
   if (there) return memory;
   try {
     return fs::temp_directory_path();
-  } catch (const fs::filesystem_error& error) {  // which does not name it in what it says
+  } catch (const fs::filesystem_error& error) {  // its message does not name the folder
     throw std::system_error(error.code(), "the folder for temporary files (TMPDIR), " + error.path1().string());
   }
 }
@@ -28,7 +28,7 @@ fs::path path_of(ScratchFolder::Place place) {
 
 ScratchFolder::ScratchFolder(Place place) {
   std::string name =
-      (path_of(place) / "noli-scratch-XXXXXX").string();  // mkdtemp wants these letters, and replaces them
+      (path_of(place) / "noli-scratch-XXXXXX").string();  // mkdtemp needs these letters, and replaces them
   if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
   path_ = name;
 }

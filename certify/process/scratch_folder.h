@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A folder for files that nobody wants to keep.
+// A temporary folder.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace noli {
 
-/// Vanishes, with all that is in it, with this.
+/// The destructor removes the folder with its contents.
 class ScratchFolder {
  public:
-  /// `disk`: where the system keeps temporary files. `memory`: where the machine has files in memory, for who writes
-  /// and syncs thousands of small ones a second; else the same.
+  /// `disk`: where the system keeps temporary files. `memory`: a file system in memory if there is one, for writing and
+  /// syncing thousands of small files a second; otherwise like `disk`.
   enum class Place : std::uint8_t { disk, memory };
 
-  /// Throws std::system_error when no folder can be made there.
+  /// Throws std::system_error when no folder can be created there.
   explicit ScratchFolder(Place place = Place::disk);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The process that this code is part of, and the programs that come with it.
+// Facts about this process and the programs that come with it.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace noli {
 /// The largest resident size of this process so far, in bytes.
 std::uint64_t peak_memory_bytes();
 
-/// The file of this very program, whatever its name is.
+/// The executable of this process.
 std::filesystem::path this_program_file();
 
-/// Where a program of this name lies if it lies beside this one. It need not be there.
+/// The path of a program of this name in the folder of this one. It need not exist.
 std::filesystem::path beside_this_program(const std::string& name);
 
 }  // namespace noli

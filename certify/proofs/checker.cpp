@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const char* name_of(Checker checker) { return checker == Checker::plain ? "noli_check" : "noli_check_verified"; }
 
-/// The name - is standard input's, and others that begin so are options.
+/// The name - means standard input, and other names that begin with - are options.
 std::string name_of_file(const fs::path& path) {
   return path.string().starts_with('-') ? "./" + path.string() : path.string();
 }
@@ -72,7 +72,7 @@ void CheckerProcess::write(std::string_view bytes) {
   throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
 }
 
-/// What it said before it ended, if anything.
+/// Its last words before it ended, if any.
 std::string CheckerProcess::why() {
   try {
     const auto verdict = finish();
@@ -84,7 +84,7 @@ std::string CheckerProcess::why() {
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {
   ProgramEnd end = child_.finish(limits_);
-  if (cut_) return std::nullopt;  // it has not had all of the proof
+  if (cut_) return std::nullopt;  // it did not get all of the proof
   switch (end.kind) {
     case ProgramEnd::Kind::exited: break;
     case ProgramEnd::Kind::stopped: return std::nullopt;

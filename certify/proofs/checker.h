@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checkers of proofs, which are programs of their own (proofs/checker, proofs/coq), run as separate processes.
+// Runs the checkers of proofs (proofs/checker, proofs/coq) as separate processes.
 #pragma once
 
 #include <atomic>
@@ -16,22 +16,21 @@
 
 namespace noli {
 
-/// A checker at work. It does not share the signals of the terminal: this process hears them, and ends it. Ended with
-/// this if it has not ended.
+/// A running checker. It does not get the signals of the terminal: this process gets them and ends it. The destructor
+/// ends it if it has not ended.
 class CheckerProcess {
  public:
-  /// Starts it. Throws std::runtime_error when the checker is not there.
+  /// Starts it. Throws std::runtime_error when there is no such checker.
   explicit CheckerProcess(const CheckRequest& request);
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
-  /// The next bytes of the proof. Nothing is written any more after a stop; finish() tells.
-  /// Throws std::runtime_error when the checker reads no more.
+  /// Writes the next bytes of the proof. After a stop nothing more is written; finish() then returns nothing. Throws
+  /// std::runtime_error when the checker stops reading.
   void write(std::string_view bytes);
-  /// Waits until it has read all that was written and has ended; nothing after a stop, also
-  /// one that came while it was written to: what it says is then not about all of the proof. Throws
-  /// HelperError when the machine failed it (memory, a signal); std::runtime_error when it ended with another code than
-  /// it may, or closed its output and stayed.
+  /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(): its
+  /// verdict is then not about the whole proof. Throws HelperError when the machine failed it (memory, a signal);
+  /// std::runtime_error when it ended with an unexpected exit code, or closed its output and stayed.
   std::optional<CheckerVerdict> finish();
 
  private:
@@ -46,14 +45,14 @@ class CheckerProcess {
   Child child_;
 };
 
-/// Writes a proof to a checker that is at work, which has to outlive it.
+/// Writes a proof to a running checker, which must outlive it.
 class CheckerSink : public Sink {
  public:
   explicit CheckerSink(CheckerProcess& checker) : checker_(checker) {}
   void write(std::string_view bytes) override { checker_.write(bytes); }
   void sync() override {}
-  /// What was written cannot be taken back: the checker will reject a proof of which a part was to be cut off. Nobody
-  /// asks it then.
+  /// Bytes that were written cannot be taken back. The checker would reject a proof whose end should have been cut off;
+  /// its verdict is not used then.
   void truncate(std::uint64_t /*size*/) override {}
 
  private:

@@ -27,7 +27,7 @@ bool is_excluded(const LabelPairs& pairs, std::uint32_t a, std::uint32_t b) {
   return pairs.contains({std::min(a, b), std::max(a, b)});
 }
 
-/// The cells of one label: how many, and one or two of their vertices.
+/// The cells with one label: how many, and one or two of their vertices.
 struct CellsOfLabel {
   std::size_t cells = 0;
   std::set<VertexId> vertices;
@@ -63,7 +63,7 @@ std::string pairs_text(const LabelPairs& pairs) {
   return text;
 }
 
-/// What follows `key=` up to the next blank, read as a number.
+/// Reads the text after `key=`, up to the next blank, as a number.
 template <class T>
 bool read_number(std::string_view text, T& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -103,7 +103,7 @@ bool read_field(std::string_view key, std::string_view value, Claim& claim) {
   return key == "to" && read_number(value, claim.to);
 }
 
-/// A value as the line of a claim has it.
+/// A value in the form of the line of a claim.
 std::string word_of(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
   if (value.is_number_float()) return digits17(value.get<double>());
@@ -111,7 +111,7 @@ std::string word_of(const Json& value) {
   return value.is_array() ? pairs_text(value.get<LabelPairs>()) : value.dump();
 }
 
-/// Values of a claim in the order of its line.
+/// The values of a claim in the order of its line.
 std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
   std::vector<std::pair<std::string, std::string>> words;
   const Json members = claim_json(claim);  // items() only refers to it
@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
   return words;
 }
 
-/// The members of a claim file, which are read one by one.
+/// Reads the members of a claim file one by one.
 class ClaimFile {
  public:
   explicit ClaimFile(const std::filesystem::path& file) : file_(file.string()) {}
@@ -135,7 +135,7 @@ class ClaimFile {
     std::vector<std::string> fields;
     for (const auto& [key, value] : json.items()) {
       if (key == "schema" || key == "version") continue;
-      // Of a run the pairs are those of its scene, whoever asks.
+      // For a run the pairs are always those of its scene.
       if (key == "excluded" && json.value("motion", Json()) == "run") continue;
       fields.push_back(key + "=" + word(key, value));
       if (fields.back().size() > longest_word) fail("/" + key, "has more pairs than a checker can be asked about");
@@ -148,7 +148,7 @@ class ClaimFile {
     throw InputError(file_, pointer, message);
   }
 
-  /// The checker says which numbers are possible.
+  /// Does not check numbers, as the checker does.
   std::string word(const std::string& key, const Json& value) const {
     const Json members = claim_file({});
     if (!members.contains(key)) fail("/" + key, "unknown member; `noli schema claim` lists those of a claim");
@@ -212,7 +212,7 @@ std::vector<std::string> fields_of(const Claim& claim) {
     if (key == "from" || key == "to") continue;
     if (key == "steps" && claim.steps == 0) continue;  // not known yet: all that the motion has
     if (key == "ring" && claim.distance == 0) continue;
-    // Of a run the pairs are those of its scene, by default; they may be more than a command line takes.
+    // For a run the pairs are those of its scene by default; they may be too many for a command line.
     if (key == "excluded" && claim.motion == "run") continue;
     fields.push_back(fmt::format("{}={}", key, value));
     if (fields.back().size() > longest_word) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Claims as a verification makes them and as JSON. What they are: include/noli/proof.h.
+// Makes claims (include/noli/proof.h) for a verification, and converts them to JSON.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace noli {
 
-/// Sets what the cells (after merging) and their labels say: their hash, what is excluded, and whether the claim is
-/// empty; `strict` is set before.
+/// Sets the members that depend on the cells (after merging) and their labels: their hash, excluded pairs, and whether
+/// the claim is empty. Precondition: `strict` is set.
 void set_cells(Claim& claim, const Mesh& mesh, std::span<const std::uint32_t> labels, const LabelPairs& excluded);
 
-/// Its order is that of the claim's line, its types are those that CLAIM.json may have.
+/// The members in the order of the claim's line, with the types of CLAIM.json.
 Json claim_json(const Claim& claim);
 
 /// {"name": text, "version": text, "commit": text}

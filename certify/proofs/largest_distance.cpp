@@ -17,7 +17,7 @@ class Cells {
   Cells(const Mesh& mesh, const WorldLines& rest, int dimension, const MeshPaths& paths)
       : mesh_(mesh), rest_(rest), dimension_(dimension), paths_(paths) {}
 
-  /// The least double that is not less than the distance of those features of two cells that no short path joins.
+  /// The least double >= the distance of those features of two cells that no short path joins.
   double above_distance(std::uint32_t i, std::uint32_t j) const {
     double least = std::numeric_limits<double>::infinity();
     const auto a = vertices_of(mesh_, i), b = vertices_of(mesh_, j);

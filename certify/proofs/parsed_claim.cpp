@@ -13,7 +13,7 @@ namespace {
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
-/// A counted list of pairs at `at`, which goes behind it; nothing if it is longer than the payload.
+/// Reads a counted list of pairs at `at`, and moves `at` past it; nothing if it is longer than the payload.
 std::optional<Pairs> read_pairs(const std::string& payload, std::size_t& at) {
   if (payload.size() < at + 4) return std::nullopt;
   const auto count = get<std::uint32_t>(payload.data() + at);

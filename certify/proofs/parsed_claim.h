@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a proof of frames claims: the fields of its first group (proofs/FORMAT.md, sections 1 and 2).
+// Parses the claim of a proof of frames: the fields of its first group (proofs/FORMAT.md, sections 1 and 2).
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ struct ParsedClaim {
   bool strict = false, points = false;
   std::uint32_t ring = 1;
   double eta = 0;
-  std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that stands for it
+  std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that represents it
   std::set<std::array<std::uint32_t, 2>> excluded;
-  std::vector<std::uint32_t> labels;  ///< of the cells; none: all are 0
+  std::vector<std::uint32_t> labels;  ///< of the cells; empty: all are 0
 
   std::uint32_t label(std::size_t cell) const { return cell < labels.size() ? labels[cell] : 0; }
   friend bool operator==(const ParsedClaim&, const ParsedClaim&) = default;
@@ -31,8 +31,8 @@ struct ParsedClaim {
 /// Nothing if the first group has no claim, or lists are longer than its block.
 std::optional<ParsedClaim> parse_claim(const ProofGroups& groups);
 
-/// The cells that a claim is about: with loose points, merged vertices replaced, and without what is redundant then.
-/// Nothing if a merged vertex is none of the mesh.
+/// The cells that a claim is about: with loose points, merged vertices replaced, and redundant cells dropped. Nothing
+/// if a merged vertex is not in the mesh.
 std::optional<Mesh> claimed_mesh(const ParsedClaim& claim, const Mesh& mesh);
 
 }  // namespace noli

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A proof (proofs/FORMAT.md) taken apart into its blocks, and put together again with whatever in it was changed:
-// lengths, checksums and hashes are those of the blocks as they are now.
-//
-// What this does not do: it does not know what the blocks mean (proof_mutations.h does).
+// Takes a proof (proofs/FORMAT.md) apart into its blocks, and puts changed blocks together again with the right
+// lengths, checksums and hashes.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +19,15 @@ struct ProofBlock {
   friend bool operator==(const ProofBlock&, const ProofBlock&) = default;
 };
 
-/// What one commit closes.
+/// The blocks that one commit closes.
 using ProofGroup = std::vector<ProofBlock>;
 using ProofGroups = std::vector<ProofGroup>;
 
-/// The groups of a whole proof. Throws InputError, naming `name`, when it is no block file, is damaged, or ends in an
-/// open group.
+/// The groups of a whole proof. Throws InputError, naming `name`, when it is not a block file, is damaged, or ends in
+/// an open group.
 ProofGroups parse_proof(std::string bytes, const std::string& name);
 
-/// What is written wrong on purpose.
+/// A fault to write on purpose.
 struct Spoiled {
   enum class What : std::uint8_t { nothing, number, group_hash, running_hash, no_commit } what = What::nothing;
   std::size_t group = 0;

@@ -23,7 +23,7 @@ constexpr std::size_t step_payload_size = 65;
 
 std::string place(const Block& block) { return fmt::format("byte {}", block.payload_offset()); }
 
-/// Of the committed groups.
+/// The contents of the committed groups.
 class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path.string()), reader_(path, proof_content) {
@@ -97,7 +97,7 @@ class Contents {
 
 bool is_proof(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;  // a look would take its beginning from a pipe
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // a look would consume the beginning of a pipe
   std::array<char, block_format::file_header_size> begin{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(begin.data(), begin.size())) return false;

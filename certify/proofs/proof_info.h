@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `noli info` tells of a proof (proofs/FORMAT.md): what it claims, of which times, in how many bytes.
+// Summarises a proof (proofs/FORMAT.md) for `noli info`: its claim, its times, and its size.
 //
-// What this does not do: it checks nothing but that the blocks are whole; `noli check` checks what they say.
+// It checks only that the blocks are whole; `noli check` checks the proof.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@
 
 namespace noli {
 
-/// Whether the file begins as a proof. False where it cannot be read.
+/// Whether the file begins like a proof. False if it cannot be read.
 bool is_proof(const std::filesystem::path& path);
 
-/// Holds one block at a time. Throws InputError when the file is damaged, or its blocks are none of a proof.
+/// Holds one block at a time. Throws InputError when the file is damaged, or its blocks are not those of a proof.
 Json proof_info(const std::filesystem::path& path);
 
 }  // namespace noli

@@ -9,7 +9,7 @@
 namespace noli {
 namespace {
 
-/// The groups of cells, and those pairs of them that have cells on both sides.
+/// The groups of cells, and those excluded pairs of groups that both have cells.
 CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions) {
   CellLabels labels{std::vector<std::uint32_t>(mesh.cell_count(), 0), {}};
   if (exclusions == nullptr) return labels;

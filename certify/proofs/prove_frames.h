@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The proof of `noli verify FRAMES...`, step by step beside the verifier.
+// Makes the proof of `noli verify FRAMES...`, step by step alongside the verifier.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace noli {
 
-/// What is asked of frames. `outcome`: what is known of them before the first step.
+/// The claim that is asked for. `outcome`: what is known about the frames before the first step.
 Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
                       const Exclusions* exclusions);
 

@@ -20,7 +20,7 @@ std::unique_ptr<StepProofs> open_proof(const RunScene& scene, const Claim& claim
   return std::make_unique<StepProofs>(scene.mesh, std::move(header), labels_of_scene(scene), open);
 }
 
-/// The end of the last group of a proof, or of that number if it has more.
+/// The end of the last group of a proof, or of group number `groups` if it has more.
 CommitPoint last_commit(const std::filesystem::path& file, std::uint64_t groups) {
   std::error_code error;
   if (std::filesystem::file_size(file, error) < block_format::file_header_size || error) return {};
@@ -47,9 +47,9 @@ std::unique_ptr<StepProofs> resumed_proof_of_run(const std::filesystem::path& ru
                                                  const RunScene& scene, const WindowVerifier& verifier,
                                                  const VerifyOptions& options) {
   const std::filesystem::path file = proof_path(run_folder);
-  // Before the first window nothing was told of the proof, and a loss of power may have left any part of it.
+  // Before the first window nothing else mentions the proof, and a loss of power may have left any part of it.
   const CommitPoint committed = windows == 0 ? CommitPoint{} : last_commit(file, windows + 1);
-  if (committed.groups == 0) std::filesystem::remove(file);  // there is none, or not even its claim was written
+  if (committed.groups == 0) std::filesystem::remove(file);  // there is no proof, or not even its claim was written
   auto sink =
       std::make_unique<FileSink>(file, committed.groups == 0 ? FileSink::Open::create : FileSink::Open::existing);
   std::unique_ptr<StepProofs> proof = open_proof(scene, {}, [&](const ProofHeader& header) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The proofs of a run's windows: of `noli simulate`, and of `noli verify RUN --proof OUT`.
+// Makes the proofs of a run's windows, for `noli simulate` and `noli verify RUN --proof OUT`.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,12 @@ namespace noli {
 /// The file in the folder of a run.
 std::filesystem::path proof_path(const std::filesystem::path& run_folder);
 
-/// What of a scene's cells is claimed: their hash, and the pairs that are not compared. `claim.strict` is set before.
+/// Sets the members of the claim about a scene's cells: their hash, and the pairs that are not compared. Precondition:
+/// `claim.strict` is set.
 void set_cells_of_run(Claim& claim, const RunScene& scene);
 
-/// Writes to an empty sink. Uses only strict, distance and ring of the claim. The scene must outlive the proof; this
-/// holds for the next function, too.
+/// Writes to an empty sink. Uses only strict, distance and ring of the claim. The scene must outlive the proof, here
+/// and below.
 std::unique_ptr<StepProofs> proof_of_run(std::unique_ptr<Sink> sink, const RunScene& scene, const Claim& claim = {});
 /// Continues the proof that `noli simulate` began, of a run with `windows` committed windows: cuts off later windows
 /// and proves the missing ones. Throws InputError if the proof cannot be read.

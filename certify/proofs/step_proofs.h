@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The steps of a proof, of whatever they are about: two frames, or a window of a run.
+// Writes the steps of a proof; a step is between two frames, or a window of a run.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@
 
 namespace noli {
 
-/// A step of a motion. `lines` have to outlive what is done with it.
+/// A step of a motion. `lines` must outlive it.
 struct MotionStep {
   std::uint64_t number;  ///< from 0
   const WorldLines& lines;
-  double shift = 0;                    ///< its times are those of the lines and this more, exactly
+  double shift = 0;                    ///< its times are exactly those of the lines plus this
   std::optional<Sha256Digest> hash{};  ///< of a window's group in trajectory.blocks
 };
 
@@ -31,7 +31,8 @@ class StepProofs {
  public:
   using Open = std::function<ProofFile(const ProofHeader&)>;
 
-  /// `mesh`: what is compared, which has to outlive this. `header`: all but labels and exclusions, which are `labels`.
+  /// `mesh`: the compared mesh, which must outlive this. `header`: everything except labels and exclusions, which are
+  /// in `labels`.
   StepProofs(const Mesh& mesh, ProofHeader header, CellLabels labels, const Open& open);
   StepProofs(const StepProofs&) = delete;
   StepProofs& operator=(const StepProofs&) = delete;
@@ -46,10 +47,11 @@ class StepProofs {
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
   bool refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings);
-  /// The same for one in which something comes nearer than the least distance.
+  /// The same for a step in which something comes nearer than the least distance.
   bool refute(const MotionStep& step, const TooNear& near);
 
-  /// The largest least distance that the positions where a step begins allow, if it is less than what was asked for.
+  /// The largest least distance that holds for the positions at the beginning of a step, if it is less than what was
+  /// asked for.
   std::optional<LargestDistance> largest(const MotionStep& step, const WindowVerifier& verifier,
                                          const VerifyOptions& options) const;
 
@@ -63,10 +65,10 @@ class StepProofs {
   ProofHeader header_;
   MeshPaths paths_;
   ProofFile file_;
-  std::vector<std::uint32_t> leaf_cells_;  ///< of the tree that write() has written last
+  std::vector<std::uint32_t> leaf_cells_;  ///< of the last tree that write() wrote
 };
 
-/// Where the vertices are when the lines begin.
+/// The positions of the vertices at the beginning of the lines.
 std::vector<Position> beginning_of(const WorldLines& lines);
 
 }  // namespace noli

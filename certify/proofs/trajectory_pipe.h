@@ -32,15 +32,15 @@ class TrajectoryPipe {
   TrajectoryPipe(const TrajectoryPipe&) = delete;
   TrajectoryPipe& operator=(const TrajectoryPipe&) = delete;
 
-  /// What the checker opens.
+  /// The file that the checker opens.
   const std::filesystem::path& path() const { return path_; }
   /// For a RunWriter or FramesWriter, which this has to outlive.
   std::unique_ptr<Sink> sink();
 
   /// Waits until the checker has read all that was written. Throws std::runtime_error when it does not open the pipe
-  /// within a minute; returns at once when it has ended, which its proof then tells.
+  /// within a minute. Returns at once if the checker has ended; writing the proof then reports that.
   void drained();
-  /// The same, and the checker is at its end.
+  /// The same, then ends the stream.
   void close();
   /// Nothing is written any more: whoever waits goes on.
   void abandon();
@@ -63,11 +63,11 @@ class TrajectoryPipe {
   std::filesystem::path path_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::string> waiting_;  ///< the first is on its way until it is gone
+  std::deque<std::string> waiting_;  ///< the first one is being written
   bool closing_ = false, abandoned_ = false;
   bool over_ = false;                                                   ///< nothing is written any more
-  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< by drained()
-  bool unopened_ = false;                                               ///< because nobody has opened it
+  std::optional<std::chrono::steady_clock::time_point> awaited_since_;  ///< since when drained() waits
+  bool unopened_ = false;                                               ///< the checker never opened the pipe
   std::thread thread_;
 };
 

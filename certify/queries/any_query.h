@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A query whose pair of features and dimension are known only at run time, as files and generators make them.
-//
-// What this does not do: it decides nothing; `visit` hands the query over to code that does.
+// A query whose pair of features and dimension are known only at run time, as from files and generators. `visit` passes
+// it to code that is typed by them.
 #pragma once
 
 #include <array>
@@ -39,7 +38,7 @@ constexpr std::array<QueryType, 6> all_query_types = {{{FeaturePair::vertex_face
                                                        {FeaturePair::vertex_edge, 2},
                                                        {FeaturePair::vertex_vertex, 2}}};
 
-/// The kind that trajectory/formats/query_csv.h knows a pair by.
+/// The kind of a pair in trajectory/formats/query_csv.h.
 constexpr QueryKind file_kind(FeaturePair pair) {
   switch (pair) {
     case FeaturePair::vertex_face: return QueryKind::vertex_face;
@@ -64,8 +63,7 @@ Query<Pair, Dim> typed(const AnyQuery& query) {
 }
 }  // namespace detail
 
-/// Calls `function` with the query as the Query<Pair, Dim> that it is. Precondition: the combination is one of
-/// all_query_types.
+/// Calls `function` with the query as a Query<Pair, Dim>. Precondition: the combination is one of all_query_types.
 template <class Function>
 auto visit(const AnyQuery& query, Function&& function) {
   const bool planar = query.dimension == 2;

@@ -34,7 +34,7 @@ class FileRun {
     }
   }
 
-  /// Whether all was decided.
+  /// Returns whether everything was decided.
   bool operator()() {
     const Stopwatch watch;
     const std::size_t decided = decide();
@@ -99,7 +99,7 @@ class FileRun {
   std::vector<char> contact_;
 };
 
-/// What was asked for, or what the file's name says.
+/// The kind that was asked for, or that of the file's name.
 FeaturePair kind_of(const std::filesystem::path& path, std::optional<FeaturePair> asked) {
   const std::optional<FeaturePair> kind = asked ? asked : query_kind(path);
   if (kind) return *kind;
@@ -115,7 +115,7 @@ void require_decided(const CcdFile& file, int dimension) {
                    " queries in 2 dimensions; expected vertex-edge or vertex-vertex");
 }
 
-/// The queries of all files. The outcome is not complete when the user would not wait for them.
+/// The queries of all files. The outcome is not complete if the user stopped the reading.
 std::vector<std::vector<QueryRecord>> read_all(CcdOutcome& outcome) {
   std::vector<std::vector<QueryRecord>> records;
   try {

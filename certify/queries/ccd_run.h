@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli ccd` without its words: decides files of queries, compares with their labels, and measures.
-//
-// What this does not do: it prints nothing.
+// The work of `noli ccd`: decides files of queries, compares the answers with their labels, and measures time. It
+// prints nothing.
 #pragma once
 
 #include <atomic>
@@ -20,10 +19,10 @@ namespace noli {
 
 struct CcdRequest {
   std::vector<std::filesystem::path> files;
-  std::optional<FeaturePair> pair;          ///< nothing: the name of each file says
-  int dimension = 3;                        ///< 2: z is not looked at
-  bool times = false;                       ///< find the kind and time of each contact too
-  std::size_t max_reports = 100;            ///< list at most so many disagreements
+  std::optional<FeaturePair> pair;          ///< nothing: as in the name of each file
+  int dimension = 3;                        ///< 2: z is ignored
+  bool times = false;                       ///< also find the kind and time of each contact
+  std::size_t max_reports = 100;            ///< the most disagreements to list
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, the outcome is not complete
   std::function<void(double)> progress;     ///< called with the share of the files that are done, in [0, 1]
 };
@@ -47,7 +46,7 @@ struct CcdCounts {
   std::uint64_t labelled = 0;
   std::uint64_t disagreements = 0;
   StageCounters stages;
-  double ns_per_query = 0;  ///< mean; the median of the passes for files that take less than a second
+  double ns_per_query = 0;  ///< mean; for files that take less than a second, the median of several passes
 
   CcdCounts& operator+=(const CcdCounts& other);
 };
@@ -69,7 +68,7 @@ struct CcdOutcome {
 /// Reads all files, then decides them. Throws InputError, UsageError (no kind, no such kind in this dimension).
 CcdOutcome run_ccd(const CcdRequest& request);
 
-/// The kind of query in a file, if its name says it.
+/// The kind of query in a file, if its name contains it.
 std::optional<FeaturePair> query_kind(const std::filesystem::path& path);
 
 }  // namespace noli

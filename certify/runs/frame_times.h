@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which frames a run has: those that it recorded, or at the times i / rate, i = 0, 1, 2, ...
+// The frames of a run: those that it recorded, or those at the times i / rate, i = 0, 1, 2, ...
 #pragma once
 
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 
 namespace noli {
 
-/// Calls each(time) for those of window `index`: after its begin, up to its end; the first window also has that at its
-/// begin. So each frame is in one window. each() says whether to go on.
+/// Calls each(time) for the frames of window `index`: after its begin, up to its end; the first window also has the
+/// frame at its begin. So each frame is in one window. each() returns whether to go on.
 template <class Each>
 void for_each_frame_time(std::uint64_t index, double begin, double end, double rate, const Each& each) {
   const double first = begin * rate - 1;
@@ -26,8 +26,8 @@ void for_each_frame_time(std::uint64_t index, double begin, double end, double r
   }
 }
 
-/// Calls each(time, positions) for the frames of a window that was read; of a run that recorded frames alone, for
-/// those, whatever the rate. each() says whether to go on. Throws UsageError where there are too many.
+/// Calls each(time, positions) for the frames of a window that was read. If the run recorded only frames, it takes
+/// those and ignores the rate. each() returns whether to go on. Throws UsageError if there are too many.
 template <class Each>
 void for_each_frame(const RunWindow& window, double rate, const Each& each) {
   if (!window.lines) {

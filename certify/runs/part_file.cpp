@@ -49,7 +49,7 @@ void PartFile::remove_earlier() const {
   if (::unlinkat(folder_, part_.c_str(), 0) != 0 && errno != ENOENT) fail(errno, part_);
 }
 
-/// Whether the name is still that of the file that was made.
+/// Whether the name still refers to the file that was created.
 bool PartFile::is_there() const {
   struct stat named = {}, made = {};
   return ::fstatat(folder_, part_.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0 && ::fstat(file_, &made) == 0 &&
@@ -66,7 +66,7 @@ void PartFile::take_name() {
   }
   if (::renameat(folder_, part_.c_str(), folder_, name_.c_str()) != 0) fail(errno, name_);
   named_ = true;
-  if (::fsync(folder_) != 0 && errno != EINVAL) fail(errno, name_);  // some file systems have no such thing
+  if (::fsync(folder_) != 0 && errno != EINVAL) fail(errno, name_);  // some file systems do not support it
 }
 
 }  // namespace noli

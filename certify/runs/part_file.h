@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file of a run that is written beside its place, as "NAME.part", and takes the name when it is whole.
+// A file of a run that is written as "NAME.part" and renamed when it is complete.
 //
-// The folder may come from anybody: a link by the name is not followed, and nothing but the file that was made here
-// takes the place.
+// The folder need not be trusted: links by the name are not followed, and only the file that was created here gets the
+// name.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ namespace noli {
 
 class PartFile {
  public:
-  /// A file by that name that a killed process left is removed first. Throws InputError when there is something else by
-  /// it, a link or a folder; std::system_error, naming the file, when it cannot be made.
+  /// First removes a part file that a killed process left. Throws InputError when that name is a link or a folder;
+  /// std::system_error, naming the file, when it cannot be created.
   explicit PartFile(const std::filesystem::path& path);
-  /// Leaves nothing behind of a file that did not take its name.
+  /// Removes the file unless it was renamed.
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// Open for reading and writing; closed with this.
+  /// Open for reading and writing; closed by the destructor.
   int descriptor() const { return file_; }
 
-  /// Syncs it, gives it its name, or that of a file that is there, and syncs the folder. Throws std::system_error.
+  /// Syncs the file, renames it (replacing an existing file), and syncs the folder. Throws std::system_error.
   void take_name();
 
  private:

@@ -29,8 +29,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 bool is_scrap(const fs::path& file) { return file.filename().string().starts_with(".noli-"); }
 
-/// Whether a folder holds a run, or nothing at all. What a run begins with is trajectory.blocks; a lonely scene.json is
-/// somebody's scene.
+/// Whether a folder holds a run, or nothing at all. A run begins with trajectory.blocks; a scene.json alone is just a
+/// user's scene.
 bool is_run(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return false;
@@ -39,7 +39,7 @@ bool is_run(const fs::path& folder) {
   return std::all_of(files.begin(), files.end(), is_scrap);
 }
 
-/// Whoever made the folder may have put a link where the run will write: its target may be anybody's.
+/// The creator of the folder may have put a link where the run will write; its target may belong to somebody else.
 void require_no_links(const fs::path& folder) {
   for (const fs::path& file : files_in(folder)) {
     if (!is_file_of_run(file.filename()) || !fs::is_symlink(fs::symlink_status(file))) continue;
@@ -47,21 +47,21 @@ void require_no_links(const fs::path& folder) {
   }
 }
 
-/// A scene without what a run's bytes do not depend on.
+/// A scene without the fields on which a run's bytes do not depend.
 Json essential(Json scene) {
   for (const char* field : {"duration", "title", "about", "short"}) scene.erase(field);
   if (scene.value("record", "") != "frames") scene.erase("frame_rate");
   return scene;
 }
 
-/// Null where the scene has none.
+/// A member of the run's scene, or null.
 Json member_of_scene(const fs::path& run, const char* key) {
   const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
   return scene.is_object() ? scene.value(key, Json()) : Json();
 }
 
-/// The files of a run, but not the folder: it may be the current one. What tells that it is a run goes last, so it is
-/// one still if this is cut short. A link is removed, and its target stays.
+/// Removes the files of a run, but not the folder, which may be the current one. The file that makes it a run goes
+/// last, so it is still a run if this is cut short. A link is removed, and its target stays.
 void clear(const fs::path& folder) {
   const fs::path last = trajectory_path(folder);
   for (const fs::path& file : files_in(folder)) {
@@ -73,7 +73,7 @@ void clear(const fs::path& folder) {
 
 }  // namespace
 
-/// Without a "." or a slash at its end, which some operations on folders do not take.
+/// Drops a "." or a slash at the end, which some operations on folders do not accept.
 RunFolder::RunFolder(const fs::path& path) : path_(path.lexically_normal()) {
   if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
 }
@@ -122,7 +122,7 @@ bool RunFolder::has_begun() const {
   const fs::path trajectory = trajectory_path(path_);
   if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
   if (fs::exists(path_ / "manifest.json")) return true;
-  // The log comes after the manifest.
+  // The log is created after the manifest.
   if (!fs::exists(path_ / "log.jsonl")) return false;
   throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
 }
@@ -179,7 +179,7 @@ std::string title_of(const fs::path& run) {
 
 namespace {
 
-/// A number of the run's scene; nothing when the run has none, or not there.
+/// A number of the run's scene; nothing if the run has no scene, or the scene no such number.
 std::optional<double> number_of_scene(const fs::path& run, const char* name) {
   for (const char* file : {"manifest.json", "scene.json"}) {
     std::error_code error;
@@ -189,8 +189,8 @@ std::optional<double> number_of_scene(const fs::path& run, const char* name) {
   return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
 }
 
-/// Hash of a file this process has just written. Ignores requests to stop: the run is already ending, and its end has
-/// still to be logged.
+/// Hash of a file that this process has just written. Ignores requests to stop: the run is already ending, and its end
+/// must still be logged.
 Sha256Digest hash_of_written(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<char> part(std::size_t{1} << 20);

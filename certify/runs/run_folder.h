@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The folder of a run: made, refused or found again; its manifest and its log. Who writes to it has it locked before
-// anything in it is read, cleared or made, to the end. Files of others in it are let be.
-//
-// What this does not do: the motion itself (trajectory/blocks/run_file.h).
+// The folder of a run, with its manifest and log: creates it, refuses it or goes on with it. A writer locks it before
+// it reads, clears or creates anything in it, and keeps the lock to the end. Other files in it are left alone.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +19,7 @@
 
 namespace noli {
 
-/// How many windows are committed, and the running hash behind them.
+/// How many windows are committed, and the running hash after them.
 struct CommittedWindows {
   std::uint64_t count = 0;
   Sha256Digest running{};
@@ -36,36 +34,35 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Locks the folder for as long as this object lives, if it is there. Throws UsageError when another process has it.
+  /// Locks the folder, if it exists, as long as this object lives. Throws UsageError when another process has the lock.
   void lock();
 
-  /// Makes the folder, and locks it. Throws UsageError when there is something by that name; with `force` the files of
-  /// a run that is there are removed first, but nothing that is no run, and no run that another process writes to.
+  /// Creates and locks the folder. Throws UsageError when the name exists. With `force` it removes the files of an
+  /// existing run first, and throws UsageError for anything else, or for a run that another process writes to.
   void make(bool force);
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
-  /// begun: without a manifest there is none to go on with. `model`: hash of what the scene came to;
-  /// `facts`: members of the log's first line. Precondition: the folder is locked, as for all that follows.
+  /// begun: without a manifest it cannot be resumed. `model`: hash of the model made from the scene; `facts`: members
+  /// of the log's first line. Precondition, here and below: the folder is locked.
   void begin(const Json& scene, const Sha256Digest& model, const Json& facts);
 
-  /// Whether there is a run to go on with, and not just what is left of one that ended before it began. Throws
-  /// UsageError when the folder is no run at all, or one that has lost its manifest.
+  /// Whether there is a run to go on with, and not just the remains of one that ended before it began. Throws
+  /// UsageError when the folder is not a run, or has lost its manifest.
   bool has_begun() const;
 
-  /// Goes on with it. Throws InputError when it is one of another scene, a file that the scene names has changed, or
-  /// its log or manifest is damaged. The duration, the title and what is only looked at may differ. Returns what its
-  /// log knows of its windows; those that are missing can be made again.
+  /// Goes on with the run. Throws InputError when it is a run of another scene, a file that the scene names has
+  /// changed, or its log or manifest is damaged. Fields of the scene that do not change the run's bytes, such as the
+  /// duration and the title, may differ. Returns what its log says about its windows; missing ones can be made again.
   KnownWindows go_on(const Json& scene, const Sha256Digest& model);
-  /// The line of the log behind which the run goes on; `facts` as for begin(), for a log that was lost.
+  /// Logs that the run is resumed; `facts` as for begin(), for a log that was lost.
   void resumed(const CommittedWindows& committed, const Json& facts);
 
-  /// Returns the hash of series.h5, once that survives a loss of power. Throws InputError, std::system_error.
+  /// Makes series.h5 survive a loss of power, and returns its hash. Throws InputError, std::system_error.
   Sha256Digest keep_series() const;
 
-  /// A line of the log for a window that has been committed. `deepest`: the deepest layer of contact that was active up
-  /// to its end.
+  /// Logs a window that has been committed. `deepest`: the deepest layer of contact that was active up to its end.
   void log(const CommittedWindows& committed, const SeriesRow& row, std::uint32_t deepest);
-  /// Any other line. Precondition: `entry` has a member "event".
+  /// Logs any other line. Precondition: `entry` has a member "event".
   void log(const Json& entry);
 
  private:
@@ -77,21 +74,21 @@ class RunFolder {
   void log_begin(const Json& facts);
 };
 
-/// Whether a run has a file of this name in its folder, for good or for a moment.
+/// Whether a run has a file of this name in its folder, even if only for a moment.
 bool is_file_of_run(const std::filesystem::path& name);
 
-/// The files of a run that `noli verify` reads and that do not change once it has ended: trajectory.blocks and, where
-/// it is there, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` says
+/// The files of a run that `noli verify` reads and that do not change after it has ended: trajectory.blocks and, if it
+/// exists, manifest.json, each with the SHA-256 of its bytes. Throws InputError; ReadInterrupted when `stop` returns
 /// true.
 std::vector<FrameFacts> run_facts(const std::filesystem::path& run, const std::function<bool()>& stop);
 
-/// Of the scene of a run. Throws InputError when its manifest or its scene is not there or damaged.
+/// The title of a run's scene. Throws InputError when its manifest or its scene is missing or damaged.
 std::string title_of(const std::filesystem::path& run);
 
-/// Of the scene of a run [s]; nothing where it has lost that or its manifest. Throws InputError when one of
+/// The duration of a run's scene [s]; nothing if the run has lost its scene or manifest. Throws InputError when one of
 /// them is damaged.
 std::optional<double> duration_of(const std::filesystem::path& run);
-/// The same of its windows' length.
+/// The same for the length of its windows.
 std::optional<double> window_of(const std::filesystem::path& run);
 
 }  // namespace noli

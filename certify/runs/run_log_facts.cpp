@@ -16,13 +16,13 @@
 namespace noli {
 namespace {
 
-/// Null if it is not there.
+/// A member, or null.
 const Json& member(const Json& json, const char* key) {
   static const Json nothing;
   return json.contains(key) ? json[key] : nothing;
 }
 
-/// A member that is a number, or else 0.
+/// A member that is a number, otherwise 0.
 template <class T>
 T number(const Json& json, const char* key) {
   const Json& found = member(json, key);
@@ -76,7 +76,7 @@ class Reader {
     }
   }
 
-  /// Pairs of bodies that are there; of anything else, nothing.
+  /// The pairs of bodies of a material; nothing if they are malformed or there are no such bodies.
   MeetingBodies meetings(const Json& material) const {
     MeetingBodies result;
     const Json& pairs = member(material, "pairs");
@@ -91,7 +91,8 @@ class Reader {
     return result;
   }
 
-  /// Whoever resumes may have found fewer windows than the part before had told of, and makes the others again.
+  /// The last line counts: a resumed part may have found fewer windows than the previous part logged, and makes the
+  /// others again.
   void tell(const Json& entry, const char* windows, std::uint64_t more) {
     constexpr std::uint64_t most = std::uint64_t{1} << 53;
     if (!member(entry, windows).is_number_unsigned()) return;
@@ -102,7 +103,7 @@ class Reader {
   void window(const Json& entry) {
     tell(entry, "window", 1);
     const Json& timing = member(entry, "timing");
-    if (!member(timing, "deepest").is_number()) return;  // what it does not say is not known
+    if (!member(timing, "deepest").is_number()) return;  // otherwise it is not known
     const auto window = number<std::uint64_t>(entry, "window");
     if (window >= next_) {
       ++facts_.windows;
@@ -153,10 +154,12 @@ class Reader {
   }
 
   LogFacts facts_;
-  std::uint64_t next_ = 0;  ///< window; one may be logged twice, by a part that was killed and by the next
+  std::uint64_t next_ = 0;  ///< the next window; one may be logged twice, by a part that was killed and by the next
+                            ///< part
 };
 
-/// Those that are there: whoever has no scene can do without it, and without a log nothing can be compared.
+/// Checks the manifest and the scene if they exist: a run can do without its scene, and without a log there is nothing
+/// to compare with.
 void require_manifest(const std::filesystem::path& run, const LogFacts& log) {
   const std::filesystem::path path = run / "manifest.json";
   if (!std::filesystem::exists(path)) return;

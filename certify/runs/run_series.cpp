@@ -75,7 +75,7 @@ class Numbers {
   std::string_view bytes_;
 };
 
-/// A list, with its size before it; `numbers`: of 8 bytes, of each.
+/// A list, preceded by its size; `numbers`: numbers of 8 bytes per item.
 template <class T>
 std::vector<T> take_list(Numbers& take, std::size_t numbers) {
   std::uint64_t count = 0;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run says about each of its windows: energies, momenta, works, counts, lengths of steps, and how near things
-// came. Stored with the window, as bytes that trajectory/FORMAT.md calls its writer's own, so that a run that is
-// resumed has the whole series. All of it follows from the motion: what certificates or clocks have to say is in the
-// log.
+// The row of each window of a run: energies, momenta, works, counts, lengths of steps, and how near things came. It is
+// stored with the window (as its writer's own bytes, trajectory/FORMAT.md), so that a resumed run has the whole series.
+// All of it follows from the motion; certificates and clocks are in the log.
 //
-// Bytes, all numbers little-endian of 8 bytes: the text "noli row", the version 5; the number of anchors of friction at
-// the window's end, and for each its kind of pair, four vertices, four weights, and the time up to which it lasts,
-// which whoever resumes needs (integrator/anchors.h); then each field in the order of SeriesRow: doubles; events,
-// breakpoints, halvings; the two layers, each as layer, material, pair, four vertices, time, distance; the least step;
-// the number of materials of contact, and for each the works of its potential, of friction, of restitution; the number
-// of scripts, and the work of each; the number of bins, and for each its number (of a signed integer the two's
-// complement) and its ticks.
+// Bytes, all numbers little-endian of 8 bytes:
+//   1. The text "noli row", the version 5.
+//   2. The number of anchors of friction at the window's end, and for each its kind of pair, four vertices, four
+//      weights, and the time up to which it lasts. A resumed run needs these (integrator/anchors.h).
+//   3. Each field in the order of SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer,
+//      material, pair, four vertices, time, distance; the least step; the number of materials of contact, and for each
+//      the works of its potential, of friction, of restitution; the number of scripts, and the work of each; the number
+//      of bins, and for each its number (a signed integer in two's complement) and its ticks.
 //
-// The version is also that of the motion: a run that began with another one would go on differently. Version 4 had no
-// anchors; in version 3 gravity had a clock of its own.
+// The version is also that of the motion: a run that began with another version would go on differently. Version 4 had
+// no anchors; in version 3 gravity had a clock of its own.
 #pragma once
 
 #include <cstdint>
@@ -30,22 +30,22 @@
 
 namespace noli {
 
-/// What a run says of a window, and what friction remembers at its end.
+/// The row of a window, and the anchors of friction at its end.
 struct WindowState {
   SeriesRow row;
   std::vector<integrator::Anchor<double>> anchors;
 };
 
-/// Its bytes.
+/// The bytes of a row and its anchors.
 std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<double>> anchors);
-/// Why bytes are no row of this version, as those of an earlier one or of another program are not; empty if they are.
+/// Why bytes are not a row of this version (but of an earlier one or of another program); empty if they are.
 std::string not_a_row(std::string_view bytes);
-/// Throws std::invalid_argument when the bytes are no row. Its numbers are not checked: run_series_reader.h does.
+/// Throws std::invalid_argument when the bytes are not a row. Does not check numbers (run_series_reader.h does).
 WindowState decode_state(std::string_view bytes);
 
 ActingLayer acting_layer(const std::optional<integrator::LayerAction>& action);
 
-/// Of the change of the energy, what nothing that is booked has given: SeriesRow::integration [J].
+/// The change of the energy that no booked work explains: SeriesRow::integration [J].
 double left_of_change(const SeriesRow& row, double energy_before);
 
 /// The works of a window.
@@ -65,8 +65,8 @@ void add_works(const integrator::Books<double, Dim>& books, SeriesRow& row) {
   row.script_work = books.scripts;
 }
 
-/// `lines`: of the window; `fixed`: of each vertex, not 0 if it is pinned or scripted; `energy_before`: of the row
-/// before, or at time 0.
+/// `lines`: of the window; `fixed`: by vertex, nonzero if it is pinned or scripted; `energy_before`: of the previous
+/// row, or at time 0.
 template <int Dim>
 SeriesRow series_row(const integrator::Simulation<double, Dim>& simulation, const integrator::Books<double, Dim>& books,
                      std::uint64_t breakpoints, const WorldLines& lines, std::span<const std::uint8_t> fixed,

@@ -25,7 +25,7 @@ void require(bool holds, fmt::format_string<Parts...> problem, Parts&&... parts)
 // --- Times -----------------------------------------------------------------------------------------------------------
 
 /// A simulation's windows begin at 0 and go up to the next multiple of their length, or end before it. (The reader has
-/// seen that each begins where the one before ends.)
+/// checked that each begins where the previous one ends.)
 void check_times(const SeriesRow& row, const RunWindow& window, const RunScene& scene) {
   require(window.index > 0 || window.begin == 0, "is of a first window that begins at {} s; expected 0", window.begin);
   const double length = scene.header.window_length;
@@ -66,7 +66,7 @@ void check_books(const SeriesRow& row, const SeriesRow& before) {
 
 // --- Layers ----------------------------------------------------------------------------------------------------------
 
-/// `what`: has the pair.
+/// `what`: the owner of the pair, for messages.
 void check_pair(std::string_view what, FeaturePair pair, std::span<const VertexId> all, const RunScene& scene) {
   const bool flat = scene.header.dimension == 2;
   require(!flat || pair == FeaturePair::vertex_edge || pair == FeaturePair::vertex_vertex,
@@ -106,7 +106,7 @@ void check_layers(const SeriesRow& row, const RunWindow& window, const RunScene&
 
 // --- Steps -----------------------------------------------------------------------------------------------------------
 
-/// Their sum; nothing beyond 2^64 is added up.
+/// The sum of all ticks; stops before 2^64.
 std::uint64_t ticks_of(const StepHistogram& steps, std::uint64_t expected) {
   std::uint64_t sum = 0;
   for (const auto& bin : steps.bins) {

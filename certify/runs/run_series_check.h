@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether the numbers of a row can be those of its window. What the motion decides is compared with it; the rest is
-// held within what the integrator can do.
+// Checks whether the numbers of a row can be those of its window. Numbers that follow from the motion are compared with
+// it; the others must be possible for the integrator.
 //
-// What this does not do: energies, momenta and works may be any doubles, which overflow where velocities do not; only
-// `integration` is compared with them, in all rows but the first.
+// Energies, momenta and works may be any doubles, as they can overflow when velocities do not. Only `integration` is
+// compared with them, in all rows except the first.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,10 @@
 
 namespace noli {
 
-/// `before`: the row of the window before, none for the first. Throws std::invalid_argument, one line without place.
+/// `before`: the row of the previous window, or null for the first. Throws std::invalid_argument, one line without
+/// place.
 void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, const SeriesRow* before);
-/// The same of what friction remembers at the window's end.
+/// The same for the anchors of friction at the window's end.
 void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window, const RunScene& scene);
 
 }  // namespace noli

@@ -24,7 +24,7 @@ using integrator::ForceKind;
 
 using Stop = std::function<bool()>;
 
-/// How long the series are.
+/// The lengths of the series.
 struct Extent {
   std::uint64_t windows = 0, frames = 0;
   std::int64_t first_bin = 0;  ///< of steps
@@ -54,7 +54,7 @@ std::uint64_t frames_in(const RunWindow& window, double rate, const Stop& stop) 
   return count;
 }
 
-/// Nothing when it was stopped.
+/// Nothing if it was stopped.
 std::optional<Extent> measure(const std::filesystem::path& run, double rate, const Stop& stop) {
   SeriesReader reader(run);
   Extent extent;
@@ -75,7 +75,7 @@ class Column {
     file.declare(name_, unit, shape);
   }
 
-  /// Precondition: one row.
+  /// Precondition: `row` is one row of the array.
   void append(std::span<const double> row) {
     constexpr std::size_t enough = 1 << 14;
     waiting_.insert(waiting_.end(), row.begin(), row.end());
@@ -102,8 +102,8 @@ std::string in_group(const char* group, std::size_t kind) {
   return std::string(group) + "/" + std::string(name(static_cast<ForceKind>(kind)));
 }
 
-/// Calls each(name, unit, values) for each series of a row except the histogram of steps, and except those whose size
-/// the scene decides.
+/// Calls each(name, unit, values) for each series of a row, except the histogram of steps and the series whose size
+/// depends on the scene.
 template <class Each>
 void each_series(const SeriesRow& row, const Each& each) {
   const auto one = [&each](const std::string& name, const char* unit, double value) {
@@ -146,7 +146,7 @@ class Series {
     declare();
   }
 
-  /// Whether it was not stopped.
+  /// False if it was stopped.
   bool write() {
     while (const auto window = reader_.next_window()) {
       write(reader_.row());
@@ -190,14 +190,14 @@ class Series {
     column("histograms/step_share").append(shares(row.steps));
   }
 
-  /// By material: of its potential, of friction, of restitution.
+  /// The works of each material: potential, friction, restitution.
   static std::vector<double> works(const std::vector<ContactWork>& materials) {
     std::vector<double> row;
     for (const ContactWork& m : materials) row.insert(row.end(), {m.potential, m.friction, m.restitution});
     return row;
   }
 
-  /// Of each bin that the run has.
+  /// The share of each bin of the run.
   std::vector<double> shares(const StepHistogram& steps) const {
     std::vector<double> row(extent_.bins, 0);
     const double all = static_cast<double>(steps.ticks());

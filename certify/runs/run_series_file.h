@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `series.h5` of a run, made from its windows: energies, momenta, works, counts and how long steps are
+// Writes `series.h5` of a run from its windows: energies, momenta, works, counts and lengths of steps
 // (certify/runs/step_histogram.h) at the ends of windows, and frames.
 #pragma once
 
@@ -11,10 +11,9 @@
 
 namespace noli {
 
-/// Writes RUN/series.h5, or replaces it. Frames are at the multiples of 1 / frame_rate; of a run that recorded frames
-/// alone, those that it has. `stop` is asked after each window and frame. In memory: a window. Throws InputError
-/// (damaged run, or its folder has a link where the file is written), WriteError (disk, noli_series),
-/// std::system_error.
+/// Creates or replaces RUN/series.h5. Frames are at the multiples of 1 / frame_rate; if the run recorded only frames,
+/// they are those. `stop` is called after each window and frame. In memory: one window. Throws InputError (damaged run,
+/// or its folder has a link in place of the file), WriteError (disk, noli_series), std::system_error.
 SeriesEnd write_series_file(const std::filesystem::path& run, double frame_rate, const std::function<bool()>& stop);
 
 }  // namespace noli

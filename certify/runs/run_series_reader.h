@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How every command reads a run: one window at a time, with the row of its series, whose numbers are checked.
+// Reads a run for every command: one window at a time, with the checked row of its series.
 //
 // The state of a window belongs to the program that wrote it. A run of another program, or of an earlier version of
-// this one, has no rows: it is read all the same, until somebody asks for a row.
+// this one, has no rows: it can be read, but asking for a row is an error.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,13 @@ namespace noli {
 
 class SeriesReader : public RunReader {
  public:
-  /// Throws InputError, as RunReader.
+  /// Throws InputError, like RunReader.
   explicit SeriesReader(const std::filesystem::path& run);
 
-  /// As RunReader's. Throws InputError too when the state is a row of this version with numbers that cannot be.
+  /// Like RunReader's. Also throws InputError when the state is a row of this version with impossible numbers.
   std::optional<RunWindow> next_window();
 
-  /// Of the window read last. Throws InputError when its state is no row of this version.
+  /// The state of the last window read. Throws InputError when it is not a row of this version.
   const WindowState& state() const;
   const SeriesRow& row() const { return state().row; }
 

@@ -22,10 +22,10 @@ void put_values(std::string& bytes, std::span<const std::int64_t> values) {
   for (const std::int64_t value : values) put(bytes, static_cast<std::uint64_t>(value));
 }
 
-/// Whether one of the names is that of a group which the other is in.
+/// Whether one of the names is a group that contains the other.
 bool one_is_in(const std::string& a, const std::string& b) { return a.starts_with(b + "/") || b.starts_with(a + "/"); }
 
-/// How many values the piece that begins at `first` has: whole rows, or the rest of one row up to a limit.
+/// The number of values of the piece that begins at `first`: whole rows, or the rest of one row up to a limit.
 std::uint64_t piece_at(const SeriesShape& shape, std::uint64_t first) {
   constexpr std::uint64_t most = series::most_in_a_piece;
   const std::uint64_t row = series::product_from(shape, 1), inner = series::product_from(shape, 2);
@@ -71,7 +71,7 @@ void SeriesFile::declare(const series::Array& array) {
   arrays_.emplace(array.name, Declared{arrays_.size(), array.shape});
 }
 
-/// Precondition: whole rows of the array.
+/// Precondition: `values` are whole rows of the array.
 template <class T>
 void SeriesFile::write(const Declared& array, std::uint64_t first, std::span<const T> values) {
   while (!values.empty()) {

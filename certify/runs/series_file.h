@@ -3,9 +3,10 @@
 // `series.h5`: named arrays of numbers as plain HDF5, without filters or chunks, so that any reader of HDF5 reads it:
 //   h5py.File("series.h5")["energy/kinetic"][:], and its attribute "unit"
 //
-// The file is made by noli_series (certify/series), to which the arrays go through a pipe: noli itself links no HDF5.
+// The program noli_series (certify/series) makes the file; it gets the arrays through a pipe. noli itself does not link
+// HDF5.
 //
-// What this does not do: it appends to no file that is there, and what is promised byte for byte is not in it.
+// It cannot append to an existing file. Its bytes are not promised to be the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -23,24 +24,24 @@ namespace noli {
 /// Number of entries along each dimension, the one that varies slowest first.
 using SeriesShape = series::Shape;
 
-/// A new file. It is written beside its place ("PATH.part") and takes the name when it is closed. All functions throw
-/// WriteError, naming the file and what to do, when it cannot be written; SeriesStopped; std::logic_error where a
-/// precondition does not hold. Then nothing may follow.
+/// A new file, written as "PATH.part" and renamed when it is closed. All functions throw WriteError, naming the file
+/// and what to do, when it cannot be written; SeriesStopped; std::logic_error when a precondition does not hold. After
+/// an error nothing may follow.
 class SeriesFile {
  public:
-  /// Throws InputError too: PartFile.
+  /// Also throws InputError, like PartFile.
   explicit SeriesFile(const std::filesystem::path& path, const SeriesProgram& program);
 
   /// Adds an array; a name "energy/kinetic" is an array in a group. `unit` is SI, "1" for a pure number. Without a
-  /// shape it has one dimension. Preconditions: the name is new, and none of an array's group or the other way round;
-  /// the shape fits the number of values.
+  /// shape it has one dimension. Preconditions: the name is new, and is not the name of a group, nor its group the name
+  /// of an array; the shape fits the number of values.
   void add(const std::string& name, const std::string& unit, std::span<const double> values, SeriesShape shape = {});
   void add(const std::string& name, const std::string& unit, std::span<const std::int64_t> values,
            SeriesShape shape = {});
 
-  /// Adds an array of doubles that is written in pieces, for what does not fit into memory: row i is all with first
-  /// index i. write_rows() writes row `first` and those after it, as many as there are values for. Preconditions: the
-  /// shape has at least one dimension; the values are whole rows of the array.
+  /// Adds an array of doubles that is written in pieces, for arrays that do not fit into memory. Row i is everything
+  /// with first index i. write_rows() writes row `first` and those after it, as many as there are values.
+  /// Preconditions: the shape has at least one dimension; the values are whole rows of the array.
   void declare(const std::string& name, const std::string& unit, const SeriesShape& shape);
   void write_rows(const std::string& name, std::uint64_t first, std::span<const double> values);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// noli_series (certify/series) at work: bytes go to it, and it says at its end whether it has made a file of them.
+// Runs noli_series (certify/series): sends it bytes, and learns when it ends whether it has made a file of them.
 #pragma once
 
 #include <chrono>
@@ -13,29 +13,29 @@
 
 namespace noli {
 
-/// The program ended without a file. what() says why: what it said, or how it ended.
+/// The program ended without a file. what() says why: its message, or how it ended.
 struct SeriesLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever waited for the program has stopped.
+/// The caller was stopped while it waited for the program.
 struct SeriesStopped : std::runtime_error {
   SeriesStopped() : std::runtime_error("stopped") {}
 };
 
 struct SeriesProgram {
-  std::filesystem::path file;                                   ///< of the program
-  std::function<bool()> stop = [] { return false; };            ///< asked while it is waited for
-  std::chrono::milliseconds patience{std::chrono::minutes(5)};  ///< for which it may take and say nothing
+  std::filesystem::path file;                                   ///< the program
+  std::function<bool()> stop = [] { return false; };            ///< polled while waiting for it
+  std::chrono::milliseconds patience{std::chrono::minutes(5)};  ///< how long it may neither read nor write
 
-  /// Whether it is there.
+  /// Whether the program exists.
   bool available() const;
 };
 
-/// The one that lies beside this program.
+/// The noli_series in the folder of this program.
 SeriesProgram series_program();
 
-/// Ended with this if it has not ended.
+/// The destructor ends the process if it has not ended.
 class SeriesProcess {
  public:
   /// `output`: the file, open for reading and writing. Throws std::system_error when it cannot be started.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t bin_count = 4 * 2048 + 1;
 
-/// Of the number of a bin that is not negative: bin b is at b - least_step_bin.
+/// The place of a step's bin, counted from 0: bin b is at b - least_step_bin.
 std::size_t place_of(double step) {
   // The leading digits of 2^(1/8), 2^(3/8), 2^(5/8), 2^(7/8).
   constexpr std::array<double, 4> ends = {0x1.172b83c7d517bp+0, 0x1.4bfdad5362a27p+0, 0x1.8ace5422aa0dbp+0,
@@ -70,7 +70,7 @@ double StepHistogram::quantile(double share) const {
 
 StepHistogram step_histogram(const WorldLines& lines, std::span<const std::uint8_t> fixed) {
   const double begin = lines.first_time(), end = lines.last_time(), scale = 0x1p32 / (end - begin);
-  // From the window's times to ticks: 0 at its begin, 2^32 at its end.
+  // Maps the window's times to ticks: 0 at its begin, 2^32 at its end.
   const auto ticks = [begin, end, scale](double t) {
     return t == end ? std::uint64_t{1} << 32 : static_cast<std::uint64_t>(std::min((t - begin) * scale, 0x1p32));
   };

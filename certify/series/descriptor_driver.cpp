@@ -20,7 +20,7 @@ namespace {
 int descriptor = -1;
 void (*lost)(int) = nullptr;
 
-/// What the library keeps of an open file: first its own part.
+/// The library's handle of an open file; its own part comes first.
 struct File {
   H5FD_t pub{};
   haddr_t allocated = 0;
@@ -35,7 +35,7 @@ haddr_t size() {
   return static_cast<haddr_t>(status.st_size);
 }
 
-/// All of it, by pread or pwrite; how much there was.
+/// Moves all bytes, by pread or pwrite; returns how many were moved.
 template <class Bytes, class Move>
 std::size_t move_all(Move move, haddr_t at, std::size_t count, Bytes* bytes) {
   std::size_t done = 0;
@@ -77,7 +77,7 @@ herr_t allocate(H5FD_t* file, H5FD_mem_t /*what*/, haddr_t end) {
 
 haddr_t end_of_file(const H5FD_t* /*file*/, H5FD_mem_t /*what*/) { return size(); }
 
-/// Behind its end a file reads as zeros.
+/// Beyond its end a file reads as zeros.
 herr_t read_it(H5FD_t* /*file*/, H5FD_mem_t /*what*/, hid_t /*how*/, haddr_t at, std::size_t count, void* bytes) {
   auto* to = static_cast<char*>(bytes);
   const std::size_t done = move_all(::pread, at, count, to);
@@ -101,7 +101,7 @@ hid_t registered() {
     H5FD_class_t d{};
 #ifdef H5FD_CLASS_VERSION
     d.version = H5FD_CLASS_VERSION;
-    d.value = static_cast<H5FD_class_value_t>(600);  // from 512 on they are anybody's
+    d.value = static_cast<H5FD_class_value_t>(600);  // values from 512 on are free for any use
 #endif
     d.name = "noli_descriptor";
     d.maxaddr = static_cast<haddr_t>(std::numeric_limits<off_t>::max());

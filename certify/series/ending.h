@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How noli_series ends: one line on standard error, and an exit code as noli's. It ends where it is: nothing is closed,
-// because HDF5 writes what it still has when it is closed.
+// Ends noli_series: one line on standard error, and an exit code as noli's. It ends at once without closing anything,
+// because HDF5 writes its buffers when it is closed.
 #pragma once
 
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace noli::series {
 
 enum class Ending : int {
   written = 0,
-  bad_stream = 3,  ///< the stream is not as stream.h says
+  bad_stream = 3,  ///< the stream breaks stream.h
   failure = 4      ///< the machine, or HDF5
 };
 
@@ -24,7 +24,7 @@ enum class Ending : int {
   }
   ::_exit(static_cast<int>(ending));
 }
-/// Of the machine: what errno means.
+/// Ends because of the machine, with the message for errno.
 [[noreturn]] inline void end_lost(int error) { end_with(Ending::failure, ::strerror(error)); }
 
 }  // namespace noli::series

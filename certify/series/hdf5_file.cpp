@@ -7,7 +7,8 @@
 namespace noli::series {
 namespace {
 
-/// What HDF5 says, a handle or whether it succeeded. Handles of what is small are not closed: the program is short.
+/// Checks a return value of HDF5, a handle or a status. Handles of small objects are not closed, as the program is
+/// short.
 template <class Said>
 Said require(Said said, const std::string& what) {
   if (said < 0) end_with(Ending::failure, "HDF5 fails: " + what);
@@ -27,7 +28,7 @@ void write_unit(hid_t dataset, const Array& array) {
   H5Tclose(type);
 }
 
-/// Where a piece is: along the first index, or a part of one row along the second.
+/// The place of a piece: along the first index, or a part of one row along the second.
 struct Box {
   std::vector<hsize_t> start, count;
 
@@ -59,8 +60,8 @@ void Hdf5File::declare(const Array& array) {
   const hid_t links = require(H5Pcreate(H5P_LINK_CREATE), array.name);
   const hid_t properties = require(H5Pcreate(H5P_DATASET_CREATE), array.name);
   require(H5Pset_create_intermediate_group(links, 1), array.name);
-  // Contiguous and allocated at once. No zeros first, which would take as long as the values. No time of day in the
-  // file.
+  // Contiguous and allocated at once. Not filled with zeros, which would take as long as the values. No time of day in
+  // the file.
   require(H5Pset_layout(properties, H5D_CONTIGUOUS), array.name);
   require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), array.name);
   require(H5Pset_obj_track_times(properties, false), array.name);

@@ -3,8 +3,8 @@
 // noli_series: makes a file of series from the stream of stream.h.
 //   noli_series write <STREAM 1<>FILE.h5
 //
-// HDF5 is in this program and not in noli: the library brings many others, and ends a process where a disk is full or
-// memory runs out. The program knows no name of a file, and has limits of its own.
+// HDF5 is linked to this program and not to noli: it brings many other libraries, and ends the process when a disk is
+// full or memory runs out. The program gets no file names, and has limits of its own.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -22,9 +22,9 @@
 namespace noli::series {
 namespace {
 
-/// Pieces are small, and so is what HDF5 keeps of arrays without chunks.
+/// Little memory is enough: pieces are small, and HDF5 keeps little of arrays without chunks.
 void limit_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they take terabytes of addresses
   constexpr rlim_t most = rlim_t{1} << 30;
   struct rlimit limit = {};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= most) return;

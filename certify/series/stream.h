@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How arrays come to the program noli_series: a stream of messages on its standard input.
+// The stream of messages through which the program noli_series gets arrays, on its standard input.
 //
 //   stream  =  "noli series"  version  message*  end
 //   array   =  1  type  name  unit  dimensions  length*       the next array, numbered from 0
 //   values  =  2  array  first  count  value*                 from value number `first` on, the last index first
 //   end     =  3                                              nothing follows
 //
-// All are u64, little-endian, but for the eleven letters at the beginning and the texts: a text is its length and its
+// All are u64, little-endian, except the eleven letters at the beginning and the texts: a text is its length and its
 // bytes. A value is eight bytes: f64 (type 0) or a signed integer (type 1).
 //
-// Values come in pieces: a message has whole rows (a row is all with one first index), or a part of one row that is
-// whole in all indices behind the second. Each value comes once; in which order is up to the writer.
+// Values come in pieces: a message has whole rows (a row is everything with one first index), or a part of one row that
+// is whole in all indices after the second. Each value comes once; the writer chooses the order.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +39,14 @@ struct Array {
   Shape shape;
 };
 
-// What the program takes.
+// Limits of the program.
 inline constexpr std::uint64_t most_letters = 256;   ///< of a name or a unit
 inline constexpr std::uint64_t most_dimensions = 8;  ///< at least one
 inline constexpr std::uint64_t most_arrays = 4096;
 inline constexpr std::uint64_t most_in_a_piece = 1 << 17;  ///< values
 inline constexpr std::uint64_t most_values = std::uint64_t{1} << 56;
 
-/// Of all indices from `dimension` on. Saturates at 2^64 - 1.
+/// The product of the lengths from `dimension` on. Saturates at 2^64 - 1.
 inline std::uint64_t product_from(const Shape& shape, std::size_t dimension) {
   std::uint64_t product = 1;
   for (std::size_t i = dimension; i < shape.size(); ++i) {
@@ -75,7 +75,7 @@ inline void put_array(std::string& out, const Array& array) {
   for (const std::uint64_t length : array.shape) put(out, length);
 }
 
-/// What comes before the values of a piece.
+/// Writes the part of a message before its values.
 inline void put_values(std::string& out, std::uint64_t array, std::uint64_t first, std::uint64_t count) {
   put(out, static_cast<std::uint64_t>(Message::values));
   put(out, array);

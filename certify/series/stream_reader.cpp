@@ -18,7 +18,7 @@ void require(bool holds, const std::string& problem) {
   if (!holds) end_with(Ending::bad_stream, "the stream: " + problem);
 }
 
-/// The array's row `first` is in, and all in it.
+/// Requires that a piece has the shape that stream.h demands.
 void require_piece(const Array& array, const Piece& piece) {
   const std::uint64_t all = product_from(array.shape, 0), row = product_from(array.shape, 1);
   require(piece.first <= all && piece.count <= all - piece.first, "values beyond the array " + array.name);

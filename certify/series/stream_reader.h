@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the stream of stream.h from a descriptor. What is not as it says ends the program (ending.h); no length is
-// believed before it has been compared with what the program takes.
+// Reads the stream of stream.h from a descriptor. A malformed stream ends the program (ending.h). Lengths are compared
+// with the limits of the program before they are used.
 #pragma once
 
 #include <span>
@@ -18,14 +18,14 @@ struct Piece {
 
 class StreamReader {
  public:
-  /// Reads its beginning.
+  /// Reads the beginning of the stream.
   explicit StreamReader(int descriptor);
 
   Message next_message();
   Array array();
-  /// Of one of the arrays, whole rows of it or a part of one.
+  /// A piece of one of the arrays: whole rows, or a part of one row.
   Piece piece(std::span<const Array> arrays);
-  /// `count` values of eight bytes, in the machine's order of bytes. They are there until the next call.
+  /// `count` values of eight bytes, in the machine's byte order. Valid until the next call.
   const void* values(std::uint64_t count);
   /// Nothing may follow.
   void require_end();
@@ -38,7 +38,7 @@ class StreamReader {
 
   int descriptor_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;  ///< of what is in the buffer
+  std::size_t begin_ = 0, end_ = 0;  ///< of the bytes in the buffer
   std::vector<std::uint64_t> values_;
 };
 

@@ -27,7 +27,7 @@ class GapSearch {
     std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.farther < b.farther; });
     ExactGap best{greatest, std::numeric_limits<double>::infinity(), 0};
     for (const Piece& piece : pieces) {
-      if (piece.farther >= best.above) break;  // nor is any that follows
+      if (piece.farther >= best.above) break;  // neither this nor any later piece is nearer
       improve(best, piece);
     }
     if (!std::isfinite(best.up_to)) throw std::range_error("exact_gap: the distance is no double");
@@ -40,7 +40,7 @@ class GapSearch {
   using Vector = certificates::Vector<Dim>;
   using Points = std::array<Vector, n>;
 
-  /// Its features are farther apart than `farther`, or that is below 0.
+  /// `farther`: the features are farther apart than this, unless it is below 0.
   struct Piece {
     Motion motion;
     double farther;
@@ -82,7 +82,7 @@ class GapSearch {
     return path;
   }
 
-  /// Rounded.
+  /// The points at a time, rounded.
   static Points points_at(const Motion& motion, double t) {
     Points x;
     for (std::size_t k = 0; k < n; ++k) {
@@ -93,8 +93,8 @@ class GapSearch {
     return x;
   }
 
-  /// More than all rounding of points and of their products with a direction of length 1: coordinates here are at most
-  /// `size` in magnitude, each is the outcome of at most four operations, each product of six more.
+  /// A bound of all rounding of points and of their products with a direction of length 1. Coordinates here are at most
+  /// `size` in magnitude; each takes at most four operations, each product six more.
   static double rounding(const Motion& motion) {
     double size = 0;
     for (const auto& p : motion.paths) {
@@ -113,7 +113,7 @@ class GapSearch {
       if (!(length > 0) || !std::isfinite(length)) continue;
       best = std::max(best, least_along(ends, Vector(r / length)) - rounding(motion));
     }
-    return best * (1 - 0x1p-40);  // the direction's length is 1 but for rounding
+    return best * (1 - 0x1p-40);  // the direction's length is 1 up to rounding
   }
 
   static double least_along(const std::array<Points, 2>& ends, const Vector& direction) {
@@ -126,14 +126,14 @@ class GapSearch {
     return least;
   }
 
-  /// Makes the gap that of this piece if it is less.
+  /// Replaces the gap by that of this piece if it is less.
   static void improve(ExactGap& best, const Piece& piece) {
     if (best.above < greatest && !first_within(piece.motion, best.above)) return;
     if (auto at = first_within(piece.motion, 0)) {
       best = {0, 0, time_of(piece.motion, *at)};
       return;
     }
-    // Of doubles that are not negative, the order is that of their bits.
+    // Nonnegative doubles have the order of their bits.
     auto low = std::bit_cast<std::uint64_t>(std::max(piece.farther, 0.0));
     const double seen = distance_at_begin(piece.motion) * (1 + 0x1p-30);
     const double start = seen < best.above && first_within(piece.motion, seen) ? seen : best.above;
@@ -146,7 +146,7 @@ class GapSearch {
     best = {std::bit_cast<double>(low), up_to, time_of(piece.motion, *first_within(piece.motion, up_to))};
   }
 
-  /// Rounded.
+  /// The distance at the beginning of the piece, rounded.
   static double distance_at_begin(const Motion& motion) {
     const Points x = points_at(motion, motion.begin);
     return certificates::closest<Dim>(Pair, std::span<const Vector>(x.data(), n)).distance();

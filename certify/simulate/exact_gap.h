@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How near two features come over a stretch of world lines, decided exactly.
+// Decides exactly how near two features come along their world lines.
 //
 // Notation
 //   piece   between two successive breakpoints of the features' vertices: all of them move linearly in it
 //   gap     the least distance over all pieces; with the kernel's exact predicate "within eta at some time of the
 //           piece" (kernel/thickness.h) it is found by bisection over the doubles
 //
-// A direction n with n . (a - b) >= g |n| for all points a, b at both ends of a piece shows, with a bound of its
-// rounding, that the piece is farther than g; so most pieces are never decided exactly.
-//
-// What this does not do: it looks at no other features than these two.
+// A direction n with n . (a - b) >= g |n| for all points a, b at both ends of a piece shows, up to a bound of its
+// rounding, that the features are farther apart than g in the piece. So most pieces are never decided exactly.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run has to know of its model beside how to integrate it.
+// Facts about a model that a run needs in addition to integrating it.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace noli {
 
-/// Which vertices nothing moves but the scene: no two cells of them alone are compared.
+/// Marks vertices that only the scene moves: two cells that have only such vertices are not compared.
 template <int Dim>
 std::vector<std::uint8_t> labels_of(const integrator::Model<double, Dim>& model) {
   std::vector<std::uint8_t> labels(model.x.size(), 0);
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> labels_of(const integrator::Model<double, Dim>& model)
   return labels;
 }
 
-/// Which groups the scene lets pass through each other. Groups of which nothing moves by itself are not named: their
+/// The pairs of groups that the scene lets pass through each other. Groups without free vertices are left out: their
 /// cells are not compared anyway.
 template <int Dim>
 Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
@@ -49,7 +49,7 @@ Exclusions exclusions_of(const integrator::Model<double, Dim>& model) {
   return result;
 }
 
-/// Of what is free, at time 0 [J].
+/// The kinetic energy of all free vertices at time 0 [J].
 template <int Dim>
 double kinetic_energy(const integrator::Model<double, Dim>& model) {
   const std::vector<std::uint8_t> held = integrator::held_vertices(model);
@@ -60,8 +60,8 @@ double kinetic_energy(const integrator::Model<double, Dim>& model) {
   return sum;
 }
 
-/// With which everything would move by 2^-30 of the model's size within a window [J]: where there is less, it may be
-/// rounding that moves things.
+/// The kinetic energy with which everything would move by 2^-30 of the model's size within a window [J]. Smaller
+/// motions may come from rounding.
 template <int Dim>
 double energy_of_rounding(const integrator::Model<double, Dim>& model) {
   const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
@@ -80,8 +80,8 @@ void hash_vectors(const std::vector<integrator::Vec<double, Dim>>& vectors, Sha2
   for (const auto& v : vectors) hash_numbers(std::span<const double>(v.data(), Dim), hash);
 }
 
-/// Of what a model's motion follows from: initial state, masses, steps, paths. The scene is hashed apart; this tells
-/// whether the files that it names are the same.
+/// The hash of everything that determines a model's motion: initial state, masses, steps, paths. The scene has a hash
+/// of its own; this one shows whether the files that it names have changed.
 template <int Dim>
 Sha256Digest hash_of(const integrator::Model<double, Dim>& model) {
   Sha256 hash;

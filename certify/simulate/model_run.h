@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between what a run integrates and what it writes.
+// Converts between what a run integrates and what it writes.
 #pragma once
 
 #include <cmath>
@@ -32,15 +32,15 @@ std::vector<integrator::Vec<double, Dim>> vectors_of(const std::vector<Position>
   return result;
 }
 
-/// The state at the end of a window that was read. `state`: its own.
+/// The state at the end of a window that was read. `state`: that of the window.
 template <int Dim>
 integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window, const WindowState& state) {
   return {window.index + 1, window.end, vectors_of<Dim>(window.positions), vectors_of<Dim>(window.velocities),
           state.anchors};
 }
 
-/// A simulation at a snapshot, or at the beginning when there is none; with contact, the steps of its layers are halved
-/// so many times.
+/// A simulation at a snapshot, or at the beginning if there is none; with contact, the steps of its layers are halved
+/// `halvings` times.
 template <int Dim>
 integrator::Simulation<double, Dim> simulation_at(const integrator::Model<double, Dim>& model,
                                                   const integrator::Snapshot<double, Dim>& snapshot,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long a run is in which phase: a thread looks at its Activity about a thousand times a second, and gives the time
-// since it looked last to the phase that it sees.
+// Measures how long a run is in each phase: a thread samples its Activity about a thousand times a second, and adds the
+// time since the last sample to the phase that it sees.
 //
-// What this does not do: what lasts for less than some milliseconds in all is seen or not.
+// Phases that last less than some milliseconds in all may be missed.
 #pragma once
 
 #include <condition_variable>
@@ -18,13 +18,13 @@ namespace noli {
 
 class PhaseClock {
  public:
-  /// Begins to look. `activity` must outlive this.
+  /// Begins to sample. `activity` must outlive this.
   explicit PhaseClock(const integrator::Activity& activity);
   ~PhaseClock();
   PhaseClock(const PhaseClock&) = delete;
   PhaseClock& operator=(const PhaseClock&) = delete;
 
-  /// Up to now; they add up to the time since it began.
+  /// The times up to now, which add up to the time since it began.
   PhaseSeconds seconds();
 
  private:
@@ -43,7 +43,7 @@ class PhaseClock {
 
 /// {"force": s, ..., "other": s}
 Json phases_json(const PhaseSeconds& seconds);
-/// "force 1.20 s (40 %), ...": those that took a thousandth of all, the longest first.
+/// "force 1.20 s (40 %), ...": the phases that took at least a thousandth of the time, the longest first.
 std::string phases_text(const PhaseSeconds& seconds);
 
 }  // namespace noli

@@ -16,7 +16,7 @@
 namespace noli {
 namespace {
 
-/// The window, and the state at its beginning.
+/// A window of the run, and the state at its beginning.
 template <int Dim>
 struct Found {
   RunWindow window;

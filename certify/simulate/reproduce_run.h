@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli simulate --reproduce`: one window of a run again, from the state at its beginning.
+// `noli simulate --reproduce`: integrates one window of a run again, from the state at its beginning.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace noli {
 struct ReproduceRequest {
   std::filesystem::path scene;
   bool brief = false;
-  std::filesystem::path run;     ///< that has the window
+  std::filesystem::path run;     ///< the run that has the window
   std::uint64_t window = 1;      ///< from 1
   std::filesystem::path output;  ///< a file for the block LINE of the window (trajectory/FORMAT.md)
 };
 
 struct ReproduceOutcome {
-  bool same = false;  ///< the hash is the one that the run has
+  bool same = false;  ///< the hash is that of the run
   Sha256Digest expected{}, found{};
   std::uint64_t breakpoints = 0;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How often a window in which something touches is run again, and with what changed (design, "Certified windows").
-//
-// What this does not do: it runs nothing.
+// Decides how often a window with a contact is run again, and with which changes (design, "Certified windows").
 #pragma once
 
 #include <cstdint>
@@ -10,9 +8,9 @@
 
 namespace noli {
 
-/// What is changed for one more try.
+/// The changes for one more try.
 struct Retry {
-  std::uint32_t least_layers = 0;  ///< of all pairs that are followed
+  std::uint32_t least_layers = 0;  ///< of all near pairs
   std::uint64_t halvings = 0;      ///< of the steps of all layers, since the run began
 };
 
@@ -20,18 +18,18 @@ class Retries {
  public:
   static constexpr int most = 8;
 
-  /// For a run in which steps have been halved so often.
+  /// `halvings`: of the steps in the run so far.
   explicit Retries(std::uint64_t halvings = 0) : halvings_(halvings) {}
 
-  /// The next try of the same window; nothing when all have been. First with more layers than the deepest that was
-  /// reached, in case that certificates missed one; then with steps halved once more each time.
+  /// The next try of the same window; nothing after the last one. The first try has more layers than the deepest that
+  /// was reached, in case certificates missed one; each later try halves the steps once more.
   std::optional<Retry> next(std::uint32_t deepest) {
     if (tries_ == most) return std::nullopt;
     if (++tries_ == 1) return Retry{deepest + 8, halvings_};
     return Retry{0, ++halvings_};
   }
 
-  /// The window has been committed. True if more layers were enough: then certificates had missed one.
+  /// Call this when the window has been committed. True if more layers were enough: certificates had missed one.
   bool committed() {
     const bool defect = tries_ == 1;
     tries_ = 0;

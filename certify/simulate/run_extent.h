@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much a run will write, and what is refused because it could not be counted or kept.
+// Counts how much a run will write, and refuses what could not be counted or kept.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace noli {
 
-/// Of the whole run. Throws UsageError (--until) or InputError (the scene's duration) when they are too many to count,
-/// and UsageError when --until asks for more than the scene's duration has, without --past-duration.
+/// The number of windows of the whole run. Throws UsageError (--until) or InputError (the scene's duration) when they
+/// are too many to count, and UsageError when --until is beyond the scene's duration without --past-duration.
 std::uint64_t windows_of(const SimulateRequest& request, const integrator::Scene& scene);
 
-/// Frames are told apart by their times, and those that are recorded are in memory for as long as their window is.
-/// Throws InputError.
+/// Requires that frames have different times, and that the recorded frames of a window fit into memory. Throws
+/// InputError.
 void require_countable_frames(const SimulateRequest& request, const integrator::Scene& scene, std::size_t vertices,
                               std::uint64_t windows);
 

@@ -11,13 +11,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As measured on the scenes that come with the program. Of each window beside its motion: its state, its commit, a
-/// line of the log. Of its proof: step and commit, and 20 (in the plane) to 125 bytes for each cell.
+/// Bytes, measured on the scenes that come with the program. For each window besides its motion: its state, its commit,
+/// a line of the log. For its proof: step and commit, and 20 (in 2D) to 125 bytes for each cell.
 constexpr double window_overhead = 900, proof_overhead = 200, proof_of_cell = 110;
-/// Of series.h5: a row for each window, and what it has without any.
+/// Bytes of series.h5: a row for each window, and the file without rows.
 constexpr double series_row_size = 450, series_file_size = 25e3;
 
-/// The folder, or the nearest one above it that is there.
+/// The folder, or its nearest parent that exists.
 fs::path there_or_above(fs::path folder) {
   std::error_code error;
   folder = fs::absolute(folder, error);
@@ -32,7 +32,7 @@ double bytes_a_window(const integrator::Scene& scene, const integrator::Explanat
   return motion + proof_of_cell * static_cast<double>(run.cells) + proof_overhead;
 }
 
-/// A run that goes on is predicted from what it has written so far.
+/// Whether the run is resumed; its size is then predicted from what it has written so far.
 bool goes_on(const RunToCome& run) { return run.windows_there > 0 && run.time_there > 0; }
 
 double motion_to_come(const integrator::Scene& scene, const integrator::Explanation& explanation,
@@ -67,7 +67,7 @@ RunBytes bytes_to_come(const integrator::Scene& scene, const integrator::Explana
   bytes.at_least = !explanation.contact.empty() && !goes_on(run);
   bytes.motion = motion_to_come(scene, explanation, run);
   if (!run.series) return bytes;
-  const double frames = run.time * scene.frame_rate + 1;  // the file is written anew, as a whole
+  const double frames = run.time * scene.frame_rate + 1;  // the whole file is written anew
   bytes.series = frames * (24.0 * static_cast<double>(run.vertices) + 8) + windows_in_all(run) * series_row_size +
                  series_file_size;
   return bytes;

@@ -57,7 +57,7 @@ struct Candidate : IntegratedWindow<Dim> {
   std::future<WindowResult> verdict;
 };
 
-/// A window that was refused, without the exact form of its first time.
+/// The result of a refused window, without the exact form of its first time.
 StepResult as_step(WindowResult window) {
   StepResult step{std::move(static_cast<Findings&>(window)), {}, false, nullptr};
   if (window.first) step.first = FirstInStep{window.first->contact, window.first->kind, window.first->lower()};
@@ -108,7 +108,7 @@ class CertifiedRun {
     bool goes_on = true;
     while (goes_on && !stopped()) goes_on = with_memory([this] { return run_window(); });
     with_memory([this] { return settle() == Settled::yes; });
-    // Whoever stopped a run of which nothing was left to do has stopped nothing.
+    // A stop after everything was done does not count.
     if (outcome_.time == end_ && stopped_from_outside()) outcome_.end = RunEnd::done;
     find_end();
     conclude(clock);
@@ -156,7 +156,7 @@ class CertifiedRun {
     return options;
   }
 
-  /// A run to be gone on with may have no window yet.
+  /// A run that is resumed may have no window yet.
   void refuse_contact_at_start() const {
     const std::string found =
         contact_at_start(verifier_, built_.model.mesh, positions_of<Dim>(built_.model.x), window_options(), names_);
@@ -164,13 +164,12 @@ class CertifiedRun {
     end_if_stopped();
   }
 
-  /// Returns what is said of the bytes to come. Throws WriteError when the disk will not hold them, before anything is
-  /// written.
+  /// Returns a note on the bytes to come. Throws WriteError, before anything is written, when the disk is too small.
   std::string require_space(const integrator::Scene& scene, const integrator::Explanation& explanation) const {
     const RunToCome run = to_come();
     const RunBytes bytes = bytes_to_come(scene, explanation, run);
     std::optional<std::uint64_t> free = free_bytes(run.run);
-    if (free && request_.force) *free += bytes_in(run.run);  // what is replaced goes first
+    if (free && request_.force) *free += bytes_in(run.run);  // the old files are removed first
     const auto problem = space_problem(bytes, run.run, free);
     if (problem && !request_.ignore_space) throw WriteError(*problem);
     return space_note(bytes, run.run, free);
@@ -197,7 +196,7 @@ class CertifiedRun {
     return run;
   }
 
-  /// What the log says of the scene, for those who read the run without it.
+  /// Facts about the scene for the log, for readers of the run that do not have the scene.
   Json facts() const {
     Json json = {{"bodies", names_.to_json()}};
     if (built_.model.contact) json["contact"] = contact_json(*built_.model.contact, built_.contact);
@@ -213,7 +212,7 @@ class CertifiedRun {
     folder_.lock();  // another process may have made it since
     const bool go_on = request_.resume && folder_.has_begun();
     if (!go_on) {
-      integrator_.begin();  // which may be stopped; then nothing is written
+      integrator_.begin();  // if it is stopped, nothing is written
       folder_.make(request_.force || request_.resume);
       writer_.emplace(folder_.path(), scene_);
       folder_.begin(scene.document, hash_of<Dim>(built_.model), facts());
@@ -251,7 +250,7 @@ class CertifiedRun {
       try {
         proof_ = resumed_proof_of_run(folder_.path(), last.windows, scene_, verifier_, window_options());
       } catch (const NoProof& none) {
-        outcome_.no_proof = none.what();  // it ended before this already
+        outcome_.no_proof = none.what();  // the proof had already ended earlier
       }
     }
     outcome_.windows_before = last.windows;
@@ -272,8 +271,8 @@ class CertifiedRun {
     return true;
   }
 
-  /// What it returns. Where memory runs out, the run ends behind its last committed window, whatever was at work; what
-  /// takes most of the memory is given back, so that this can be said.
+  /// Returns the result of `work`. If memory runs out anywhere in it, the run ends after its last committed window.
+  /// Frees what takes most of the memory, so that the run can report it.
   template <class Work>
   bool with_memory(Work&& work) {
     try {
@@ -295,8 +294,8 @@ class CertifiedRun {
     return Candidate<Dim>{std::move(*next), {}};
   }
 
-  /// The window is written before its verdict, because its proof names the hash of what was written; it is not
-  /// committed before.
+  /// Writes the window before its verdict, because its proof names the hash of what was written. It is committed only
+  /// after the verdict.
   void verify(Candidate<Dim> next) {
     candidate_ = std::move(next);
     write(*candidate_);
@@ -317,8 +316,8 @@ class CertifiedRun {
     }
   }
 
-  /// A window in which nothing touches is one also if no proof of it is found; the proof of the run then ends before
-  /// it, and no checker accepts that for the whole. False if it was stopped.
+  /// A window without contact counts even if no proof of it is found. The proof of the run then ends before it, and no
+  /// checker accepts that as a proof of the whole run. False if it was stopped.
   bool prove(std::uint64_t index, const WorldLines& lines) {
     try {
       return proof_->prove({index, lines, 0, writer_->open_window_hash()}, verifier_, window_options());
@@ -332,8 +331,8 @@ class CertifiedRun {
 
   enum class Settled { yes, rolled_back };
 
-  /// Waits for the verdict on the window that is being verified, and commits it, goes back to before it, or ends the
-  /// run.
+  /// Waits for the verdict on the window that is being verified. Then commits it, goes back to its beginning, or ends
+  /// the run.
   Settled settle() {
     if (!candidate_) return Settled::yes;
     Candidate<Dim> window = std::move(*candidate_);
@@ -359,8 +358,8 @@ class CertifiedRun {
     return Settled::yes;
   }
 
-  /// A window in which something touches is run once more: with more layers from the start, in case that certificates
-  /// have missed one, then with all layers' steps halved, from here on. False when all that has been tried.
+  /// Runs a window with a contact again: with more layers from the start, in case certificates missed one, then with
+  /// all layers' steps halved from here on. False after the last try.
   bool roll_back(const Candidate<Dim>& window, const WindowResult& result) {
     if (!built_.model.contact || outcome_.end != RunEnd::done) return false;
     const std::optional<Retry> retry = retries_.next(integrator_.deepest());
@@ -407,7 +406,7 @@ class CertifiedRun {
     if (request_.keep_going && !request_.keep_going(window.row)) outcome_.end = RunEnd::interrupted;
   }
 
-  /// With "record": "frames", those within the window.
+  /// With "record": "frames", the frames within the window.
   std::vector<RunFrame> frames_of(const Candidate<Dim>& window) const {
     std::vector<RunFrame> frames;
     if (full()) return frames;
@@ -419,7 +418,7 @@ class CertifiedRun {
     return frames;
   }
 
-  /// Why the next window did not come to its end, if it did not by itself.
+  /// Finds why the next window was not completed, unless it was stopped from outside.
   void find_end() {
     if (outcome_.end != RunEnd::done) return;
     if (const auto& limit = integrator_.limit()) {
@@ -459,8 +458,8 @@ class CertifiedRun {
     if (lost) std::rethrow_exception(lost);
   }
 
-  /// The first Ctrl-C still writes series.h5; a second one leaves it out, and `--resume` writes it. What keeps it from
-  /// being written is returned: the run has ended all the same.
+  /// The first Ctrl-C still writes series.h5; a second one skips it, and `--resume` writes it. Returns an error instead
+  /// of throwing it, as the run has ended in any case.
   std::exception_ptr write_series() {
     const PhaseScope writing(activity_, Phase::writing);
     const int before = stops();
@@ -500,19 +499,19 @@ class CertifiedRun {
   WindowVerifier verifier_;
   RunFolder folder_;
   double frame_rate_;
-  std::uint64_t windows_asked_ = 0;  ///< as many as there are when none ends early
+  std::uint64_t windows_asked_ = 0;  ///< the number of windows if none ends early
   double end_ = 0;                   ///< of the last one [s]
   std::optional<RunWriter> writer_;
   std::unique_ptr<StepProofs> proof_;  ///< with record full
   integrator::Activity activity_;
   WindowIntegrator<Dim> integrator_;
   EnergyWatch watch_;
-  Retries retries_;  ///< of the window that is next to be committed
+  Retries retries_;  ///< of the next window to be committed
   SimulateOutcome outcome_;
-  std::optional<Candidate<Dim>> candidate_;  ///< last: its verdict, which another thread makes, uses all of the others
+  std::optional<Candidate<Dim>> candidate_;  ///< last member: the thread of its verdict uses all of the others
 };
 
-/// Of a run that was stopped before its first window, while its model was built.
+/// The outcome of a run that was stopped before its first window, while its model was built.
 SimulateOutcome stopped_early(const SimulateRequest& request, const integrator::Scene& scene, StopReason reason) {
   SimulateOutcome outcome;
   outcome.end = reason == StopReason::interrupted ? RunEnd::interrupted : RunEnd::out_of_time;
@@ -530,7 +529,7 @@ SimulateOutcome run_in(const SimulateRequest& request, const integrator::Scene& 
   try {
     run.emplace(request, scene);
   } catch (const Stopped& stop) {
-    if (request.resume) throw;  // what the run has already is not known
+    if (request.resume) throw;  // the existing part of the run is unknown
     return stopped_early(request, scene, stop.reason());
   }
   return (*run)();

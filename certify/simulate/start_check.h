@@ -9,8 +9,8 @@
 
 namespace noli {
 
-/// What meets where a scene begins, everything being at rest there, decided exactly; "" if nothing does. `mesh`: the
-/// one of the verifier; `options`: as for a window. Throws Stopped when that comes before the answer is known.
+/// Decides exactly what meets at the beginning of a scene, with everything at rest; "" if nothing does. `mesh`: that of
+/// the verifier; `options`: as for a window. Throws Stopped if a stop comes before the answer is known.
 std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
                              WindowOptions options, const BodyNames& names);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The windows of a run, integrated one after another; one that is refused is gone back to.
-//
-// What this does not do: it verifies and writes nothing, and does not decide what is tried again (retries.h).
+// Integrates the windows of a run one after another, and can go back to the beginning of a refused one. retries.h
+// decides what is tried again.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ struct IntegratedWindow {
   std::vector<Position> velocities;
   std::vector<integrator::Anchor<double>> anchors;  ///< at its end
   SeriesRow row;
-  std::uint32_t deepest = 0;  ///< layer that was active, so far
+  std::uint32_t deepest = 0;  ///< the deepest layer that was active so far
 };
 
 template <int Dim>
@@ -38,20 +37,20 @@ class WindowIntegrator {
   using Model = integrator::Model<double, Dim>;
   using Snapshot = integrator::Snapshot<double, Dim>;
 
-  /// All have to outlive it. `fixed`: of each vertex, not 0 if it is pinned or scripted.
+  /// The arguments must outlive this. `fixed`: by vertex, nonzero if it is pinned or scripted.
   WindowIntegrator(const Model& model, std::span<const std::uint8_t> fixed, integrator::Activity& activity)
       : model_(model), fixed_(fixed), activity_(activity) {}
 
-  /// At time 0. Throws Stopped.
+  /// Begins at time 0. Throws Stopped.
   void begin() { go_on(Snapshot{}, 0, Retry{}); }
-  /// At the end of a window that is there, with this energy [J]. Throws Stopped.
+  /// Begins at the end of an existing window, with this energy [J]. Throws Stopped.
   void go_on(const Snapshot& last, double energy, const Retry& how) {
     simulation_.emplace(simulation_at<Dim>(model_, last, how.halvings, how.least_layers));
     simulation_->show(activity_);
     energy_ = energy;
     halvings_ = how.halvings;
   }
-  /// At the beginning of a window that was refused. Throws Stopped.
+  /// Goes back to the beginning of a refused window. Throws Stopped.
   void go_back(const IntegratedWindow<Dim>& window, const Retry& how) {
     const CertificateCounts counts = simulation_->certificates();
     go_on(window.before, window.energy_before, how);
@@ -67,7 +66,7 @@ class WindowIntegrator {
     return all;
   }
 
-  /// The next window. Nothing when it was stopped, or when the run ends within it: limit(), finite().
+  /// The next window. Nothing if it was stopped, or the run ends within it: limit(), finite().
   std::optional<IntegratedWindow<Dim>> next(const integrator::Stop& stop) {
     before_ = simulation_->snapshot();
     const bool first = before_.windows == 0;
@@ -100,7 +99,7 @@ class WindowIntegrator {
   /// All numbers of the window are finite.
   bool finite() const { return finite_; }
   bool in_first_window() const { return before_.windows == 0; }
-  /// Runs it once more. Nothing when it was stopped.
+  /// Runs the window again to find the first NaN or infinity. Nothing if it was stopped.
   std::optional<NotFinite> find_not_finite(const integrator::Stop& stop) const {
     try {
       return simulation_at<Dim>(model_, before_, halvings_).find_not_finite(stop);
@@ -110,7 +109,7 @@ class WindowIntegrator {
     }
   }
 
-  /// Gives back most of its memory. It integrates nothing after that.
+  /// Frees most of its memory. After that it must not integrate.
   void end() {
     recording_ = {};
     if (simulation_) gone_ += simulation_->certificates();
@@ -140,10 +139,10 @@ class WindowIntegrator {
   integrator::Activity& activity_;
   std::optional<integrator::Simulation<double, Dim>> simulation_;
   integrator::Recording<double, Dim> recording_;
-  Snapshot before_;    ///< of the window that was begun last
-  double energy_ = 0;  ///< where the simulation is, between windows [J]
+  Snapshot before_;    ///< at the beginning of the last window that was begun
+  double energy_ = 0;  ///< at the current time, between windows [J]
   std::uint64_t halvings_ = 0;
-  CertificateCounts gone_;  ///< of simulations that are no more
+  CertificateCounts gone_;  ///< of earlier simulations
   std::optional<integrator::ContactLimit> limit_;
   bool finite_ = true;
 };

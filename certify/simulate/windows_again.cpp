@@ -79,7 +79,7 @@ class Again : public WindowsAgain {
   integrator::Recording<double, Dim> recording_;
 };
 
-/// Paths in a scene begin in the folder of its file, which a run does not know.
+/// Paths in a scene are relative to the folder of its file, which a run does not know.
 void require_files(const fs::path& run, const integrator::Scene& scene) {
   std::error_code error;
   const auto require = [&](const std::string& file) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The windows of a run integrated again, one after another, from its own scene and states: what `noli verify RUN
-// --reproduce` verifies where only frames were recorded.
+// Integrates the windows of a run again, one after another, from its own scene and states, for `noli verify RUN
+// --reproduce` on runs that recorded only frames.
 //
-// What this does not do: it trusts no number that it integrates. World lines count only when their hash is the one that
-// the run has.
+// It trusts no number that it integrates: world lines count only if their hash is the one in the run.
 #pragma once
 
 #include <filesystem>
@@ -19,16 +18,16 @@ namespace noli {
 
 class WindowsAgain {
  public:
-  /// Of the run in this folder, whose reader has given `scene`. `files`: the folder in which the scene's file was, from
-  /// which the paths of its meshes begin; nothing: the run's own. Throws InputError when the run's scene.json is not
-  /// there, is damaged, or has come to another model than it did; UsageError when files that it names are not there.
+  /// For the run in this folder, whose reader has given `scene`. `files`: the folder where the scene's file was, to
+  /// which the paths of its meshes are relative; nothing: the run's own. Throws InputError when the run's scene.json is
+  /// missing, is damaged, or gives another model than it did; UsageError when files that it names are missing.
   static std::unique_ptr<WindowsAgain> of(const std::filesystem::path& run,
                                           const std::optional<std::filesystem::path>& files, const RunScene& scene,
                                           const std::function<bool()>& stop);
   virtual ~WindowsAgain() = default;
 
-  /// The world lines of the window behind the one before; nothing when `stop` said so. `state`: its own. Throws
-  /// InputError when their hash, or the state that they end in, is not the one that the run has.
+  /// The world lines of the next window; nothing if `stop` returned true. `state`: that of the window. Throws
+  /// InputError when their hash, or the state at their end, is not that of the run.
   virtual std::optional<WorldLines> next(const RunWindow& window, const WindowState& state) = 0;
 };
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a library has to offer so that `noli audit ccd --library LIB.so QUERIES.csv...` can ask it: two functions of
- * C99. Two more, for the search of candidates and for what the library is, may be there too. A whole library is
- * examples/swept_boxes.c:
+ * The C99 functions that a library exports so that `noli audit ccd --library LIB.so QUERIES.csv...` can call it. Two
+ * are required. Two are optional: the search for candidates, and the library's name. examples/swept_boxes.c is a
+ * complete library:
  *
  *     cc -std=c99 -O2 -shared -fPIC -I PREFIX/include -o swept_boxes.so swept_boxes.c
  *     noli audit ccd --library swept_boxes.so cloth-funnel-vertex-face.csv
  *
- * A C++ library puts extern "C" functions of these names in front of what it has; the declarations below do that.
+ * A C++ library wraps its own functions in extern "C" functions of these names; the declarations below set the linkage.
  *
  * Notation
  *   t in [0, 1]    time within the step; x(t) = (1 - t) x_t0 + t x_t1 for every point
@@ -15,12 +15,13 @@
  *   edge-edge      points a0 a1 | b0 b1
  * A point is three doubles x, y, z, so that x_t0[3 * i + axis] is a coordinate of point i at t = 0. Coordinates are
  * finite, in whatever unit of length the caller uses; they are not scaled. Faces and edges are closed and may be
- * degenerate (a face that is a segment or a point), and so is the time: what touches at exactly t = 1 is a contact.
+ * degenerate (a face that is a segment or a point). The time interval is closed too: touching at exactly t = 1 is a
+ * contact.
  *
- * Ownership: all memory is the caller's; nothing has to be kept or freed, and no pointer outlives its call. What a
- * library keeps for itself between calls is its own affair, but it must not grow from call to call.
- * Threads: calls come one after the other, from one thread, which may be any. A library may use threads inside a call.
- * Errors: nothing may be thrown out of these functions, and none of them ends the program.
+ * Ownership: all memory is the caller's; nothing has to be kept or freed, and no pointer outlives its call. A library
+ * may keep state between calls, but that state must not grow from call to call.
+ * Threads: calls come one after the other, from any one thread. A library may use threads inside a call.
+ * Errors: these functions must neither throw nor end the program.
  */
 #pragma once
 
@@ -32,7 +33,7 @@
 extern "C" {
 #endif
 
-/* The version of this interface. It changes when a library that was made for another one could be misunderstood. */
+/* The version of this interface. It changes when a library compiled for an older version could be misunderstood. */
 #define NOLI_CCD_VERSION 1
 
 /* The first argument of noli_ccd_query. */
@@ -52,26 +53,26 @@ uint32_t noli_ccd_version(void);
  * tolerance        how far the answer may be off, as a length in the unit of the coordinates, 0 or more; 0 asks for the
  *                  best that the library can do. A library without such a parameter ignores it.
  * time_of_impact   never NULL. At a hit: when they first meet; a simulation that stops there is safe only if this is
- *                  not later than the true first time. Not looked at if there is no hit. It is NaN before the call, and
- *                  a library that knows no times leaves it so.
+ *                  not later than the true first time. Ignored if there is no hit. It is NaN before the call; a library
+ *                  that does not compute times leaves it so.
  *
  * Returns NOLI_CCD_HIT, NOLI_CCD_NO_HIT, or something negative if it could not decide.
  */
 int noli_ccd_query(int kind, const double x_t0[12], const double x_t1[12], double tolerance, double* time_of_impact);
 
 /*
- * Optional: the search of candidates. `noli audit ccd --frames BEFORE AFTER` needs it: it asks for the candidates of a
- * step, and then noli_ccd_query for each of them. `noli fuzz trajectories --library` does so too, and takes all pairs
- * where it is not there.
+ * Optional: the search for candidates. `noli audit ccd --frames BEFORE AFTER` needs it: it asks for the candidates of a
+ * step, then calls noli_ccd_query for each of them. `noli fuzz trajectories --library` does the same; without this
+ * function it takes all pairs.
  *
  * x_t0, x_t1       3 * vertices doubles each
  * edges, faces     indices of vertices: two for each edge, three for each face
  * distance         features count as near when they come within this distance of each other during the step; 0 or more
- * found            to be called once, or more often, for each pair of features that share no vertex and might meet:
- *                  with the index of a vertex and of a face, or with those of two edges, and with `data`, which is the
- *                  caller's. From one thread at a time.
+ * found            to be called at least once for each pair of features that share no vertex and might meet: with the
+ *                  indices of a vertex and a face, or of two edges, and with `data`, which is the caller's. From one
+ *                  thread at a time.
  *
- * Returns 0, or something negative if it could not do it.
+ * Returns 0, or something negative if it failed.
  */
 typedef void (*noli_ccd_candidate)(void* data, int kind, uint32_t first, uint32_t second);
 int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1, size_t edges,
@@ -79,8 +80,8 @@ int noli_ccd_candidates(size_t vertices, const double* x_t0, const double* x_t1,
                         noli_ccd_candidate found, void* data);
 
 /*
- * Optional: what is asked here, in a few words, such as "FCL 0.7.0"; what an audit found is true of that version. At
- * most 100 bytes of UTF-8, on one line. The string is the library's, and lasts.
+ * Optional: the library's name and version, such as "FCL 0.7.0"; reports of an audit show it. At most 100 bytes of
+ * UTF-8, on one line. The string belongs to the library, and stays valid.
  */
 const char* noli_ccd_description(void);
 

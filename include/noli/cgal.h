@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The kernel's predicates as functors over the points of a CGAL kernel, and times of impact as CGAL's algebraic numbers
-// and back, and as MPFR's.
+// The kernel's predicates as functors over the points of a CGAL kernel. Also converts times of impact to and from
+// CGAL's algebraic numbers, and to MPFR's numbers.
 //
 //   noli::Vertex_face_contact_3<K>         does a moving vertex meet a moving face during the step?  -> bool
 //   noli::Vertex_face_time_of_impact_3<K>  when first?                -> std::optional<noli::TimeOfImpact>
@@ -13,11 +13,11 @@
 //   const auto time = time_of_impact(a0, a1, b0, b1,    // at t = 0
 //                                    c0, c1, d0, d1);   // at t = 1
 //
-// Preconditions: coordinates are doubles. A kernel with another number type may be used as long as its coordinates
-// happen to be doubles; for others std::domain_error is thrown, as rounding would be a different question. As for
+// Preconditions: coordinates are doubles. A kernel with another number type may be used as long as the values of its
+// coordinates are doubles. Otherwise std::domain_error is thrown: rounding would change the question. As for
 // noli/contact.h, the floating-point environment rounds to nearest.
 // Thread safety: functors have no state.
-// Needs CGAL, of which only packages under the LGPL are used; GMP and MPFR come with it.
+// Needs CGAL (only its packages under the LGPL are used); GMP and MPFR come with it.
 #pragma once
 
 #include <CGAL/Algebraic_kernel_d_1.h>
@@ -135,14 +135,14 @@ template <class K> using Vertex_vertex_time_of_impact_2 = cgal_detail::Functor<K
 
 using AlgebraicKernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 
-/// The same number, as CGAL's.
+/// The same number, as a CGAL algebraic number.
 AlgebraicKernel::Algebraic_real_1 to_algebraic_real_1(const TimeOfImpact& time);
 
-/// The same number, as ours. Throws std::domain_error unless it is in [0, 1].
+/// The same number, as a TimeOfImpact. Throws std::domain_error unless it is in [0, 1].
 TimeOfImpact from_algebraic_real_1(const AlgebraicKernel::Algebraic_real_1& x);
 
-/// Sets `result` to the time, correctly rounded to the precision that `result` has. Returns MPFR's ternary value: the
-/// sign of (result - time), 0 if exact.
+/// Sets `result` to the time, correctly rounded to the precision of `result`. Returns MPFR's ternary value: the sign of
+/// (result - time), 0 if exact.
 int to_mpfr(const TimeOfImpact& time, mpfr_ptr result, mpfr_rnd_t rounding);
 
 }  // namespace noli

@@ -11,7 +11,7 @@
 // counts, and so does a contact at exactly t = 0 or t = 1. There is no tolerance.
 //
 // Stages: a decision passes through stages, from comparisons to integers of any width. Each stage is certain when it
-// answers, and silent otherwise. StageCounters tell how often each one answered.
+// answers, and silent otherwise. StageCounters count how often each one answered.
 //
 // Preconditions: finite coordinates; the floating-point environment rounds to nearest. Do not call it while a
 // CGAL::Interval_nt protector is alive.
@@ -69,9 +69,9 @@ struct TimeEnclosure {
   double end = 1;
 };
 
-/// If the features meet at some t in [0, 1]: an interval that contains the first such t, mostly narrower than 2^-20 but
-/// never promised to be. Otherwise nothing. Defined for vertex_face, edge_edge, vertex_edge, vertex_vertex in 3D and
-/// for vertex_edge, vertex_vertex in 2D. Counts the stage that decided in `counters` when given.
+/// If the features meet at some t in [0, 1]: an interval that contains the first such t. It is usually narrower than
+/// 2^-20, but this is not guaranteed. Otherwise nothing. Defined for vertex_face, edge_edge, vertex_edge, vertex_vertex
+/// in 3D and for vertex_edge, vertex_vertex in 2D. Counts the stage that decided in `counters` when given.
 template <FeaturePair Pair, int Dim>
 std::optional<TimeEnclosure> contact(const Query<Pair, Dim>& query, StageCounters* counters = nullptr);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Noli throws.
+// The exceptions that Noli throws.
 //
 //   try {
 //     const noli::VerifyOutcome outcome = noli::run_verify(request);
@@ -8,8 +8,9 @@
 //   } catch (const noli::UsageError& error) {      // the request is at fault
 //   }
 //
-// All are std::runtime_error, and what() is one line. Beside them Noli throws std::system_error (disk, processes),
-// std::bad_alloc, and what a callback throws. A verdict is a result, never an exception. Thread safety: any thread.
+// All derive from std::runtime_error, and what() is one line. Noli also throws std::system_error (disk, processes) and
+// std::bad_alloc, and passes on what a callback throws. A verdict is a result, never an exception. Thread safety: any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +20,18 @@
 
 namespace noli {
 
-/// The text on one line: control characters, which names of files may contain, as \n, \t or \x1b. All else stays.
+/// The text on one line: control characters, which file names may contain, are escaped as \n, \t or \x1b.
 std::string on_one_line(std::string_view text);
 
 /// Bad input. what() is "FILE:PLACE: what is wrong, and what was expected". PLACE is "line N" for text, "byte N" for
-/// binary content, and absent where the file as a whole is meant (missing, empty).
+/// binary content, and absent when the file as a whole is meant (missing, empty).
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, const std::string& place, const std::string& problem)
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
 };
 
-/// What is asked for cannot be: options that do not go together, a place that cannot be written to.
+/// The request is at fault: options that do not go together, a place that cannot be written to.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -40,18 +41,18 @@ struct WriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A process that helps could not do its work, because of memory or files.
+/// A helper process could not do its work, because of memory or files.
 struct HelperError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 enum class StopReason : std::uint8_t { interrupted = 1, out_of_time = 2 };
 
-/// Work ended before its end, because it was asked to stop. what() is "PLACE: interrupted", or "PLACE: the time limit
-/// has passed".
+/// Work stopped early because of a request to stop or the time limit. what() is "PLACE: interrupted", or "PLACE: the
+/// time limit has passed".
 class Stopped : public std::runtime_error {
  public:
-  /// `place`: what was being done, or read; may be empty.
+  /// `place`: what was being done or read; may be empty.
   Stopped(StopReason reason, const std::string& place);
   StopReason reason() const { return reason_; }
 

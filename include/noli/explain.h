@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What happened in a run, from its files alone.
+// Summarises what happened in a run, from its files alone.
 //
 //   const noli::RunSummary run = noli::summary_of_run("run");
 //   if (run.gap) std::printf("nearest: %g m\n", run.gap->up_to);
 //
 // Notation
-//   deepest, nearest   the deepest layer of contact that acted, and the least distance that one which acted has seen. A
-//                      layer sees its pairs at its own times only
-//   gap                how near the pair of `nearest` came in that window, between those times too: decided exactly
+//   deepest, nearest   the deepest layer of contact that acted, and the layer that acted at the least distance. A layer
+//                      samples distances only at its own times
+//   gap                how near the pair of `nearest` came in that window, between those times too: decided exactly,
 //                      if the run recorded its world lines
 //
 // Units: SI; each field names its own.
@@ -33,14 +33,14 @@ struct ActingMoment {
   ActingLayer action;
 };
 
-/// What one kind of force did [J], as SeriesRow has it for a window.
+/// The energy terms of one kind of force [J], as in SeriesRow for a window.
 struct ForceWork {
   double potential = 0, damping = 0, held = 0;
 };
 
-/// Energies are kinetic energy, of velocities half way through the kicks, and all potentials, at the ends of windows
-/// [J]; works are those of all windows. last - begin = damping_work + restitution_work + held_work + integration,
-/// except for the work of scripts that is booked in advance (SeriesRow::held_ahead).
+/// Energies are kinetic energy plus all potentials at the ends of windows [J]; kinetic energy takes velocities half way
+/// through the kicks. Works are sums over all windows. last - begin = damping_work + restitution_work + held_work +
+/// integration, except for the work of scripts that is booked in advance (SeriesRow::held_ahead).
 struct EnergySummary {
   double begin = 0;  ///< at time 0
   double first = 0, last = 0, least = 0, greatest = 0;
@@ -51,10 +51,10 @@ struct EnergySummary {
   std::vector<double> scripts;
 };
 
-/// above < gap <= up_to, and no double is between; or both are 0, which is contact.
+/// above < gap <= up_to with no double in between; or both are 0, which is contact.
 struct ExactGap {
   double above = 0, up_to = 0;
-  double time = 0;  ///< about when they first are within up_to
+  double time = 0;  ///< approximately the first time at which the pair is within up_to
 
   friend bool operator==(const ExactGap&, const ExactGap&) = default;
 };

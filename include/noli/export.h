@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames of a run, as files that other programs read.
+// Exports a run as frames, in files that other programs read.
 //
 // Notation
-//   frame i   the positions at the time i / fps, i = 0, 1, ..., rounded interpolation of the world lines, which it does
-//             not change; straight lines between frames are not the certified motion
+//   frame i   the positions at the time i / fps, i = 0, 1, ..., interpolated from the world lines and rounded. Straight
+//             lines between frames are not the certified motion
 //
 //   noli::ExportRequest request;
 //   request.run = "run";
@@ -27,7 +27,7 @@ struct ExportRequest {
   std::filesystem::path run;
   double fps = 60;
   std::string pattern;  ///< with one %d or %0Nd, where the number of the frame goes; its ending names the format
-  bool force = false;   ///< files of that pattern that are there may be replaced or removed
+  bool force = false;   ///< existing files of that pattern may be replaced or removed
 };
 
 struct ExportOutcome {
@@ -41,10 +41,10 @@ struct ExportOutcome {
   bool recorded = false;  ///< the run recorded frames, and these were written
 };
 
-/// Writes the frames, one in memory at a time. Of a run that recorded frames alone, those are written, and fps does not
-/// matter. In the end no file of that pattern is there but those just written. Throws InputError (no run, a damaged
-/// one), UsageError (pattern; a place that cannot be written to; without `force`, files of that pattern that are
-/// there), std::system_error (disk).
+/// Writes the frames, one in memory at a time. If the run recorded only frames, it writes those and ignores fps. At the
+/// end the only files of that pattern are those just written. Throws InputError (no run, a damaged one), UsageError
+/// (pattern; a place that cannot be written to; existing files of that pattern without `force`), std::system_error
+/// (disk).
 ExportOutcome run_export(const ExportRequest& request);
 
 }  // namespace noli

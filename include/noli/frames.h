@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames in files: in which order they are taken, how their polygons are read, and what was read of them.
+// Frames in files: their order, how their polygons are read, and facts about what was read.
 //
 //   const noli::OrderedFrames ordered = noli::order_frames({"cloth_1.ply", "cloth_2.ply", "cloth_10.ply"});
 //
@@ -10,14 +10,14 @@
 //             digits are an exponent; `e05` is not
 //   family    the names that differ in their numbers only: `cloth_1.ply` and `cloth_10.obj`, not `body_1.ply`
 //   12.5      may be a decimal or two numbers. Read as decimals 0.10 comes before 0.9, read as two numbers after it.
-//             Where the two disagree the user is asked. They are surely decimals where one fraction of the family
-//             begins with 0 and another has a different length (0.05, 0.1), or where one has an exponent. 1.2.3 is
+//             When the two readings disagree, the user is asked. A family has decimals for certain when one fraction
+//             begins with 0 and another has a different length (0.05, 0.1), or when one has an exponent. 1.2.3 is
 //             three numbers
 //   order     names of a family compare by their first number, then by the second, and so on. Numbers of folders come
 //             before those of the file's own name
 //
 // Formats: PLY (ASCII and binary) and OBJ. Coordinates keep the unit of the file.
-// Errors: as each function says. Thread safety: any thread; there is no state. No file is opened here.
+// Errors: as each function says. Thread safety: any thread; there is no state. Nothing here opens a file.
 #pragma once
 
 #include <array>
@@ -42,8 +42,8 @@ struct OrderedFrames {
   std::vector<std::string> notes;  ///< one line each: against the numbers, sorted, numbers missing, files given twice
 };
 
-/// Orders the frames. FrameOrder::natural sorts each family within the places that it has; equal numbers stay as given,
-/// and decimals are read as decimals. Throws InputError that shows two names which are given against their numbers.
+/// Orders the frames. FrameOrder::natural sorts each family within the places it occupies; equal numbers stay as given,
+/// and decimals are read as decimals. Throws an InputError that shows two names given against their numbers.
 OrderedFrames order_frames(std::vector<std::filesystem::path> frames, FrameOrder order = FrameOrder::checked);
 
 enum class PolygonRule {

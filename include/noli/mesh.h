@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves: the cells of a mesh by vertex index, positions, and the pairs of cells that are not compared.
+// A moving mesh: its cells by vertex index, its positions, and the pairs of cells that are not compared.
 //
 //   noli::Mesh mesh;
 //   mesh.vertex_count = 4;
@@ -46,11 +46,11 @@ struct Frame {
   std::vector<Position> positions;  ///< one per vertex; z = 0 where the file has none
 };
 
-/// Which pairs of cells are not compared: those of two groups of vertices, or of one.
+/// Pairs of cells that are not compared: those between two groups of vertices, or within one group.
 struct Exclusions {
   using Pair = std::array<std::uint16_t, 2>;
 
-  std::vector<std::uint16_t> groups;  ///< of each vertex; a cell has vertices of one group. Empty without pairs
+  std::vector<std::uint16_t> groups;  ///< of each vertex; all vertices of a cell have one group. Empty without pairs
   std::vector<Pair> pairs;            ///< {a, b} with a <= b, ascending, each once
 
   bool empty() const { return pairs.empty(); }

@@ -9,7 +9,7 @@
 //   vertex_edge       points v | e0 e1
 //   vertex_vertex     points v | w
 //
-// Features are closed; degenerate ones are what their hull is (a face may be a segment or a point).
+// Features are closed. A degenerate feature is the convex hull of its points (a face may be a segment or a point).
 // Coordinates are finite doubles and are taken as they are: nothing here rounds, welds or snaps. Their unit of
 // length is the caller's.
 //
@@ -17,7 +17,7 @@
 //   query.x_t0 = {{{0.2, 0.2, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};   // v, f0, f1, f2 at t = 0
 //   query.x_t1 = {{{0.2, 0.2, -1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};  // at t = 1
 //
-// noli/contact.h and noli/time_of_impact.h decide it. Plain values: several threads may read one.
+// noli/contact.h and noli/time_of_impact.h decide a query. Plain values: several threads may read one.
 #pragma once
 
 #include <array>

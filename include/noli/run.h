@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run says of itself: energies, momenta, counts and steps of each window, and why it could not go on.
+// What a run records about itself: energies, momenta, counts and steps of each window, and why it could not go on.
 //
 //   request.keep_going = [](const noli::SeriesRow& row) { return row.kinetic < 10; };   // noli/simulate.h
 //
 // Notation
 //   window    a piece of simulated time, certified as a whole; counted from 1
 //   layer     of contact: a penalty that acts on a pair of features below a distance of its own
-//   step      of a vertex: the time between two of its breakpoints that follow one another
+//   step      of a vertex: the time between two consecutive breakpoints of it
 //   bin b     the steps from 2^((2 b - 1) / 8) to 2^((2 b + 1) / 8) s, the upper end not included
 //   B         kinetic energy and all potentials, less what damping, friction and scripts gave since the beginning
 //
-// Phases: what a run is busy with
+// Phases: what a run spends its time on
 //   force        positions of a force's vertices and its impulse
-//   kick         what impulses do to velocities, and the breakpoints that this leaves
+//   kick         how impulses change velocities, and the breakpoints that result
 //   layer        layers of contact: distances of the pairs for which they are active, impulses, friction
-//   certificate  looks at vertices, slabs, activation
-//   broad_phase  who is near whom
-//   queue        what comes next: clocks, the agenda of layers, the queue of certificates; scripts
+//   certificate  checks of vertices, slabs, activation
+//   broad_phase  which cells are near each other
+//   queue        the next event: clocks, the agenda of layers, the queue of certificates; scripts
 //   recording    breakpoints at a window's ends; sorting all of them by vertex
 //   proof        verifying a window, or waiting for it to be verified elsewhere
 //   writing      blocks, frames, the log, series.h5
-//   other        all else: reading, building, energies
+//   other        everything else: reading, building, energies
 //
 // Units: SI; each field names its own.
 // Plain values: no errors except those named; several threads may read one.
@@ -59,11 +59,11 @@ constexpr std::string_view name(ForceKind kind) {
 /// The number of the lowest bin.
 inline constexpr std::int64_t least_step_bin = -4 * 1023;
 
-/// The number of the bin that a step is in. Precondition: positive and finite; what is subnormal is in the lowest.
+/// The number of the bin that a step is in. Precondition: positive and finite. Subnormal steps are in the lowest bin.
 std::int64_t step_bin(double step);
 
-/// The lower end of a bin [s]; its upper end is that of the next, and that of the highest the greatest double. Not for
-/// results that have to be the same everywhere.
+/// The lower end of a bin [s]. Its upper end is the lower end of the next bin; the highest bin ends at the greatest
+/// double. Not for results that must be the same on every machine.
 double bin_begin(std::int64_t bin);
 
 struct StepHistogram {
@@ -73,24 +73,23 @@ struct StepHistogram {
     friend bool operator==(const Bin&, const Bin&) = default;
   };
 
-  double smallest = 0;    ///< step [s]; 0: nothing is free. Where clocks that have nothing to do with each other fire
-                          ///< at almost the same time, it is as small as rounding
-  std::vector<Bin> bins;  ///< ascending; those that are empty are not there
+  double smallest = 0;    ///< step [s]; 0: nothing is free. It can be as small as rounding when unrelated clocks fire
+                          ///< at almost the same time
+  std::vector<Bin> bins;  ///< ascending, without empty ones
 
   friend bool operator==(const StepHistogram&, const StepHistogram&) = default;
 
   std::uint64_t ticks() const;
-  /// Adds what is in another one.
   void add(const StepHistogram& other);
-  /// The step below which a free vertex is for this share of its time [s], steps being spread over their bin evenly in
-  /// their logarithm; 0.5 is the median. Precondition: something is free, 0 <= share <= 1. Not for results that have to
-  /// be the same everywhere.
+  /// The step [s] below which a free vertex spends this share of its time; 0.5 is the median. Within a bin, steps are
+  /// taken to be spread evenly in their logarithm. Precondition: something is free, 0 <= share <= 1. Not for results
+  /// that must be the same on every machine.
   double quantile(double share) const;
 };
 
 /// A layer of contact that acted.
 struct ActingLayer {
-  std::uint64_t layer = 0;  ///< 0: none did, and nothing else here means anything
+  std::uint64_t layer = 0;  ///< 0: none did, and the other members have no meaning
   std::uint64_t material = 0;
   FeaturePair pair{};
   std::array<VertexId, 4> vertices{};
@@ -114,10 +113,10 @@ struct SeriesRow {
   std::array<double, force_kinds> damping_work{};  ///< of damping; of contact, of friction [J]
   std::array<double, force_kinds> held_work{};     ///< of scripts, against these forces [J]
   double restitution_work = 0;                     ///< what restitution withholds of contact's work [J]
-  double held_ahead = 0;   ///< of the work of scripts so far, what belongs to the time after the window's end [J]
+  double held_ahead = 0;   ///< the part of the scripts' work so far that belongs to times after the window's end [J]
   double integration = 0;  ///< what finite steps did: the change of energy() less given() [J]
   std::array<double, 3> momentum{};                 ///< [N s]
-  std::array<double, 3> angular_momentum{};         ///< in the plane the third [N m s]
+  std::array<double, 3> angular_momentum{};         ///< in 2D only the third component is used [N m s]
   std::array<std::uint64_t, force_kinds> events{};  ///< forces fired; of contact, impulses of layers
   std::uint64_t breakpoints = 0;
   std::uint64_t halvings = 0;  ///< of the steps of all contact layers, after windows that had to be run again
@@ -146,9 +145,9 @@ struct SeriesRow {
     for (const double w : held_work) sum += w;
     return sum;
   }
-  /// K + V at the window's end, and what scripts have been booked in advance [J].
+  /// K + V at the window's end, plus the work of scripts that is booked in advance [J].
   double energy() const { return kinetic_mean + potential_in_all() + held_ahead; }
-  /// What damping, friction, restitution and scripts gave within the window [J]; what they took is negative.
+  /// Energy that damping, friction, restitution and scripts added within the window [J]; negative if they took it.
   double given() const {
     double sum = restitution_work;
     for (std::size_t k = 0; k < force_kinds; ++k) sum += damping_work[k] + held_work[k];
@@ -228,16 +227,16 @@ struct NotFinite {
   VertexId vertex;                ///< whose velocity or position it is
 };
 
-/// A pair that would need more layers of contact than the scene allows, or one whose steps are too short to tell one
-/// time from the next, or to no distance at all.
+/// A pair that came too near: it is at distance 0, needs more layers of contact than the scene allows, or needs a layer
+/// whose steps are too short to tell one time from the next.
 struct PairTooNear {
   FeaturePair kind{};
   std::array<VertexId, 4> vertices{};  ///< in the order of noli/query.h; the first point_count(kind) count
   double time = 0;                     ///< [s]
 };
 
-/// What is off most, and where. Where restitution takes energy, what damping and friction gave is left in B, so that it
-/// can only fall.
+/// Where the energy balance is off most. If restitution takes energy, B keeps what damping and friction gave, so that
+/// it can only fall.
 struct EnergyAstray {
   double begin = 0;       ///< B at the beginning [J]
   double there = 0;       ///< B where it is farthest from that [J]
@@ -248,12 +247,12 @@ struct EnergyAstray {
 
 enum class SeriesEnd : std::uint8_t {
   written,
-  unavailable,  ///< noli_series is not there: Noli was built without HDF5
-  stopped,      ///< no file is written, and one that is there stays as it is
-  failed        ///< the same; the machine's fault
+  unavailable,  ///< there is no noli_series: Noli was built without HDF5
+  stopped,      ///< no file is written, and an existing one stays as it is
+  failed        ///< the same, because of the machine
 };
 
-/// As in the JSON and the log.
+/// The name used in the JSON and the log.
 const char* name(SeriesEnd end);
 
 }  // namespace noli

@@ -12,11 +12,11 @@
 //   frame     positions of all vertices at one time; between two frames each vertex moves along a straight line
 //   step k    from frame k to frame k + 1, k = 0, 1, ...; with `at_rest`, frame k alone, which stands still
 //
-// A pair of features that already meets where a later step begins is not counted again.
+// A pair of features that already meets at the beginning of a later step is not counted again.
 //
 // Units: positions in any unit of length; times in [0, 1] of the step.
-// Errors: std::bad_alloc, and what `progress` throws. Thread safety: one verifier is for one thread at a time, and uses
-// several itself; any number of verifiers may be at work at once.
+// Errors: std::bad_alloc, and what `progress` throws. Thread safety: a verifier is for one thread at a time, and uses
+// several threads itself; any number of verifiers may run at once.
 // It writes no proof and reads no files (noli/verify.h does both).
 #pragma once
 
@@ -43,13 +43,13 @@ struct VerifyResult;
 class WindowVerifier;
 
 struct SequenceOptions {
-  int dimension = 3;  ///< 2 or 3; in 2 the third coordinate is not looked at
+  int dimension = 3;  ///< 2 or 3; in 2 the third coordinate is ignored
   bool at_rest = false;
   int threads = 0;          ///< 0: all there are
   bool first_only = false;  ///< stop at any contact
-  bool strict = false;      ///< also the vertex-disjoint features of one cell
+  bool strict = false;      ///< also compare the vertex-disjoint features of one cell
   std::size_t max_reports = 100;
-  const Exclusions* exclusions = nullptr;   ///< pairs of groups that are not compared; has to outlive the verifier
+  const Exclusions* exclusions = nullptr;   ///< pairs of groups that are not compared; must outlive the verifier
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the step is not complete
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::function<void(double)> progress = {};  ///< called with the share of the current step that is done, in [0, 1]
@@ -66,7 +66,7 @@ struct FirstInStep {
 /// Initial intersections are those of the first frame, or of each one at rest.
 struct StepResult : Findings {
   std::optional<FirstInStep> first;
-  bool goes_on = false;  ///< features met where the step begins: they were counted before, and may be `first`
+  bool goes_on = false;  ///< features met at the beginning of the step: they were counted before, and may be `first`
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions
 };
 
@@ -100,7 +100,7 @@ class SequenceVerifier {
   SequenceOptions options_;
   std::unique_ptr<const WindowVerifier> windows_;  ///< with exclusions
   std::uint64_t steps_ = 0;
-  bool meeting_at_end_ = false;  ///< some pair met in the step before: only then can one meet where the next begins
+  bool meeting_at_end_ = false;  ///< some pair met in the previous step: only then can one meet as the next one begins
   std::optional<std::vector<Position>> last_;  ///< frame of add()
 };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// When two features first meet, as an algebraic number, and what kind of contact it is. Exact.
+// When two features first meet, as an exact algebraic number, and what kind of contact it is.
 //
 //   if (const auto first = noli::first_contact(query)) {
 //     std::printf("%s at %.17g\n", noli::name(first->kind).data(), first->time.lower());
 //   }
 //
 // Notation
-//   time of impact   the least t in [0, 1] at which the features meet. It is the root of an integer polynomial in a
-//                    dyadic interval, so nothing about it is rounded: it compares exactly, and its double below and
-//                    above are the nearest there are. noli/cgal.h makes it CGAL's number, which has arithmetic, and
-//                    MPFR's of any precision
+//   time of impact   the least t in [0, 1] at which the features meet. It is stored as the root of an integer
+//                    polynomial in a dyadic interval, so nothing is rounded: it compares exactly, and lower() and
+//                    upper() are the nearest doubles. noli/cgal.h converts it to a CGAL number, which has arithmetic,
+//                    or to an MPFR number of any precision
 //
 // Kinds, judged at the time of impact t*:
 //   persistent  they meet during a whole interval that begins at t* (of positive length, within the step)
@@ -20,8 +20,8 @@
 //   touching    every other contact
 //   apart       they do not meet
 //
-// Preconditions and errors as for noli/contact.h. Thread safety: any thread; times are values, which share what they
-// never change.
+// Preconditions and errors as for noli/contact.h. Thread safety: any thread; times are values that share immutable
+// data.
 #pragma once
 
 #include <compare>
@@ -53,7 +53,7 @@ class TimeOfImpact {
   friend std::strong_ordering operator<=>(const TimeOfImpact& a, const TimeOfImpact& b) { return a.compare(b); }
   friend bool operator==(const TimeOfImpact& a, const TimeOfImpact& b) { return (a <=> b) == 0; }
 
-  // For Noli itself: its number type is not installed.
+  // For Noli itself: the header of AlgebraicNumber is not installed.
   explicit TimeOfImpact(AlgebraicNumber value);
   const AlgebraicNumber& algebraic() const { return *value_; }
 
@@ -82,7 +82,7 @@ struct FirstContact {
 };
 
 /// The first contact of the step, or nothing if the features stay apart.
-/// Slow next to `contact` (noli/contact.h): microseconds, with allocation. Call it for queries known to be in contact.
+/// Slower than `contact` (noli/contact.h): microseconds, with allocation. Call it for queries known to be in contact.
 template <FeaturePair Pair, int Dim>
 std::optional<FirstContact> first_contact(const Query<Pair, Dim>& query);
 

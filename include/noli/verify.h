@@ -5,16 +5,16 @@
 //   noli::VerifyRequest request;
 //   request.frames = {"cloth_1.ply", "cloth_2.ply"};
 //   const noli::VerifyOutcome outcome = noli::run_verify(request);
-//   if (outcome.verdict == noli::Verdict::contact) ...  // outcome.first says who, when and how
+//   if (outcome.verdict == noli::Verdict::contact) ...  // outcome.first says what meets, when and how
 //
 // Notation
 //   step k     from frame k to frame k + 1, between which each vertex moves along a line; or window k of a run.
-//              Counted from 1 in all that is reported
+//              Reports count from 1
 //   proof      noli/proof.h; one is written where `open_proof` says
 //
 // Units: coordinates and distances in the unit of the files; times in [0, 1] of the step, in seconds for a run.
 // Errors: as run_verify says. Thread safety: any number of verifications may run at once, each with its own stop;
-// nothing is printed. Callbacks come from the calling thread or, serialised, from threads of the verification.
+// nothing is printed. Callbacks come from the calling thread or from threads of the verification, one at a time.
 // Frames in memory: noli/sequence.h.
 #pragma once
 
@@ -43,29 +43,29 @@ class Sink;
 
 struct VerifyRequest {
   std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
-  FrameOrder order = FrameOrder::checked;     ///< how they came to be in it; put_in_order() does it
-  std::string ordered;                        ///< the same in words
+  FrameOrder order = FrameOrder::checked;     ///< how put_in_order() orders them
+  std::string ordered;                        ///< one line: how they were ordered; set by put_in_order()
   std::vector<std::string> order_notes;
   FrameReading reading;
   bool run = false;              ///< it is a run: steps are its windows, times are seconds
   std::optional<int> dimension;  ///< nothing: 2 if all z of the first two frames are equal, else 3
   int threads = 0;               ///< 0: all there are
   std::size_t max_reports = 100;
-  bool keep_going = false;       ///< all steps, not only up to the first that has a contact
+  bool keep_going = false;       ///< all steps, instead of stopping after the first with a contact
   bool first_only = false;       ///< stop at any contact
-  bool strict = false;           ///< also the vertex-disjoint features of one cell
-  bool points = false;           ///< vertices that nothing refers to are particles
-  bool constant_motion = false;  ///< --static: each frame for itself
+  bool strict = false;           ///< also compare the vertex-disjoint features of one cell
+  bool points = false;           ///< vertices that no cell refers to are particles
+  bool constant_motion = false;  ///< --static: each frame by itself, at rest
   bool merge_identical = false;
   std::optional<std::filesystem::path> ignore;        ///< groups that are not compared: `noli verify --help`
-  double min_distance = 0;                            ///< features have to be more than this apart
+  double min_distance = 0;                            ///< features must be more than this apart
   std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
   bool follow = false;                                ///< of a run: wait for windows that are still to come
   bool live = false;                                  ///< of a run: another process writes to it
   bool reproduce = false;                             ///< of a run: integrate its windows again
-  std::optional<std::filesystem::path> scene_folder;  ///< in which the file of its scene was; nothing: its own
+  std::optional<std::filesystem::path> scene_folder;  ///< where the run's scene file was; nothing: the run's folder
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, what is settled by then is the outcome
+  const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, the outcome has what is settled so far
   /// Called with what is done, and the share of it in [0, 1]: "look", then "verify". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
   std::optional<std::filesystem::path> trajectory;  ///< a file that all frames are written to, for checkers
@@ -73,7 +73,7 @@ struct VerifyRequest {
   bool check = true;                                ///< the checker looks at the proof: reports say whether it did
   /// Where the proof of a claim is written to, called once at most; empty: none is made. See proof_to_file().
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
-  /// Call it before the first step of frames is decided, so that whoever reads the proof looks at them meanwhile.
+  /// Call open_proof before the first step of frames is decided, so that the checker reads the frames meanwhile.
   bool open_proof_at_once = false;
 
   // For `noli verify` itself.
@@ -83,12 +83,12 @@ struct VerifyRequest {
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
 
-  /// Puts frames in the order that is asked for. Throws InputError when they are given against their numbers.
+  /// Puts `frames` into `order`. Throws InputError when they are given against their numbers.
   void put_in_order();
 };
 
-/// `too_near`: nothing touches, but something comes nearer than the least distance. `proved`: no contact, and the
-/// checker has accepted the proof of it.
+/// `too_near`: nothing touches, but something comes nearer than min_distance. `proved`: no contact, and the checker
+/// accepted the proof.
 enum class Verdict { no_contact, proved, contact, too_near, undecided };
 
 /// The name used in JSON: "no_contact", "proved", "contact", "too_near", "undecided".
@@ -108,17 +108,17 @@ struct ListedInitial {
   InitialIntersection pair;
 };
 
-/// Two cells that come nearer than the least distance, and when, about.
+/// Two cells that come nearer than min_distance, and approximately when.
 struct ListedNear {
   std::size_t step = 0;  ///< from 1
   TooNear pair;
 };
 
-/// What one step gave.
+/// What was found in one step.
 struct StepCounts {
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
-  /// Features meet where the step begins, and were counted in the step before. Which of the others is first is unknown.
+  /// Features meet at the beginning of the step and were counted in the step before. `first` is then unknown.
   bool goes_on = false;
   std::optional<ListedContact> first;  ///< of its contacts, unless some go on
 
@@ -126,15 +126,15 @@ struct StepCounts {
   bool touches() const { return contact_count() + initial_intersections > 0; }
 };
 
-/// How a run ended, as its log and its scene say. Nothing else follows from it.
+/// How a run ended, according to its log and its scene. No verdict depends on it.
 struct RunEnding {
-  std::optional<std::string> why;  ///< of the last part that ended, if none began after it: "done", "contact", ...
+  std::optional<std::string> why;  ///< why the last part ended ("done", "contact", ...), if no other began after it
   bool going_on = false;           ///< the last part has not ended, or was killed
   bool being_written = false;      ///< it has not ended: another process writes to it
   double time = 0;                 ///< of the last window [s]
   std::optional<double> duration;  ///< of the scene [s]
-  std::optional<std::uint64_t> windows_total;  ///< those that are there, and the least number still to come
-  bool some_ended_early = false;               ///< so there may be more to come
+  std::optional<std::uint64_t> windows_total;  ///< those written, plus the least number still to come
+  bool some_ended_early = false;               ///< some windows are short, so more may follow
 
   bool whole() const { return duration && time >= *duration; }
 };
@@ -145,10 +145,10 @@ struct VerifyOutcome {
   std::size_t vertices = 0, faces = 0, edges = 0, points = 0;
   std::size_t merged_vertices = 0;
   NotCompared not_compared;               ///< of a run, or --ignore
-  std::size_t unreferenced_vertices = 0;  ///< that are left out
-  std::size_t steps_total = 0;            ///< of the frames or the run, looked at or not
+  std::size_t unreferenced_vertices = 0;  ///< and therefore ignored
+  std::size_t steps_total = 0;            ///< of the frames or the run, decided or not
   std::vector<StepCounts> steps;          ///< of the steps that were begun, in order
-  bool complete = true;                   ///< all that was asked for was decided; else the counts are lower bounds
+  bool complete = true;                   ///< everything was decided; otherwise the counts are lower bounds
   bool interrupted = false;               ///< by the user
   bool out_of_time = false;
   bool open_window = false;         ///< a run that ends in a window which was never committed
@@ -156,8 +156,8 @@ struct VerifyOutcome {
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
   std::optional<ListedContact> first;
-  /// Contacts, at most max_reports of them, shared as evenly as can be by the steps that have any. Of each step first
-  /// the one with which it begins, where that is known, then others in the order of noli/findings.h.
+  /// At most max_reports contacts, shared as evenly as possible among the steps that have any. Each step lists its
+  /// first contact first, if that is known, then others in the order of noli/findings.h.
   std::vector<ListedContact> reports;
   std::vector<ListedInitial> initial_reports;
   StageCounters stages;
@@ -168,33 +168,33 @@ struct VerifyOutcome {
   bool reproduced = false;                          ///< the windows were integrated again, with the run's hashes
   double reproduce_seconds = 0;                     ///< wall clock of that
   bool no_proof = false;                            ///< nothing touches, but no proof of it was found
-  std::optional<ListedNear> near;                   ///< who comes too near
-  std::optional<LargestDistance> largest_distance;  ///< that the first time allows, if it is less than was asked for
+  std::optional<ListedNear> near;                   ///< which cells come too near
+  std::optional<LargestDistance> largest_distance;  ///< what the first time allows, if it is less than was asked for
   bool proof_begun = false;                         ///< something was written where the proof goes
   std::size_t witnesses = 0;                        ///< written to the proof
-  Claim claim;                                      ///< what is asked; without a hash of cells: not known yet
-  std::optional<CheckerVersion> checker;            ///< who looked at the proof
-  std::optional<std::string> checked;               ///< what the checker said of the proof
-  std::optional<std::string> not_checked;           ///< why it was not asked, though the user did not say so
+  Claim claim;                                      ///< what is asked; not known yet while its hash of cells is empty
+  std::optional<CheckerVersion> checker;            ///< which checker checked the proof
+  std::optional<std::string> checked;               ///< what the checker said about the proof
+  std::optional<std::string> not_checked;           ///< why it was not checked although the user did not forbid it
   double proof_seconds = 0;                         ///< wall clock of making the proof
   double check_seconds = 0;                         ///< wall clock of waiting for the checker
-  std::vector<FrameFacts> inputs;                   ///< what was looked at: frames in the order of time
-  std::vector<std::string> notes;                   ///< what to know of it, a line each
+  std::vector<FrameFacts> inputs;                   ///< files that were read: frames in the order of time, or a run's
+  std::vector<std::string> notes;                   ///< remarks, one line each
 
   /// Of frames: how many there are, as far as is known, and what messages call the k-th.
   std::uint64_t frame_count() const;
   std::string frame_name(std::size_t k) const;
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
-  /// Whether it is time to stop, for who asked or for the time limit; notes which.
+  /// Whether to stop, because of a request or the time limit; notes which.
   bool stop_for(const VerifyRequest& request);
 };
 
-/// Verifies frames. Stops early, with what was settled so far, when it is asked to stop or at the deadline. Throws
-/// InputError, UsageError (options that do not go together), std::system_error (the proof), std::bad_alloc.
+/// Verifies frames. When it is asked to stop or at the deadline, it returns what was settled so far. Throws InputError,
+/// UsageError (options that do not go together), std::system_error (the proof), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
 
-/// The same for a run (request.run): window by window, and that each begins where the one before it ended.
+/// The same for a run (request.run), window by window. Also verifies that each window begins where the last one ended.
 VerifyOutcome run_verify_motion(const VerifyRequest& request);
 
 }  // namespace noli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which Noli this is.
+// The version of this Noli.
 //
 //   std::puts(noli::version_text().c_str());
 //
@@ -17,7 +17,7 @@ std::string version_text();
 /// The version alone: "0.1.0".
 std::string version_number();
 
-/// The commit alone, as git names it in short; "unknown" outside of a checkout.
+/// The commit alone, abbreviated by git; "unknown" outside a checkout.
 std::string version_commit();
 
 }  // namespace noli

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Angles without arc tangent: kept as their cosine and sine, so that + - * / and the square root are enough and the
-// bits are the same everywhere.
+// Angles without arc tangent: stored as cosine and sine, so that + - * / and the square root are enough and the bits
+// are the same on every machine.
 //
 // Notation
 //   theta, theta0   an angle now and at rest; delta = theta - theta0
 //   V(delta)        K (1 - cos delta), of slope K sin delta and curvature K cos delta <= K. For small delta it is
 //                   K/2 delta^2 up to K/24 delta^4
 //
-// What this does not do: V weakens when delta passes a right angle, where its slope is greatest, and gives no moment at
-// a half turn. It does not count turns.
+// V weakens when delta passes a right angle, where its slope is greatest, and gives no moment at a half turn. It does
+// not count turns.
 #pragma once
 
 namespace noli::integrator {

@@ -2,7 +2,7 @@
 //
 // A spring along an edge. Notation: a, b its ends; L = |b - a|, L0 its rest length; V = k/2 (L - L0)^2.
 //
-// What this does not do: it has no direction at L = 0; there the force is none.
+// At L = 0 there is no direction, and the force is 0.
 #pragma once
 
 #include <cmath>

@@ -6,22 +6,20 @@
 // Notation
 //   x0, x1    the common edge, e = x1 - x0, L = |e|; x2, x3 the opposite vertices, a = x2 - x0, b = x3 - x0
 //   n1, n2    e x a and b x e, the triangles' normals; N1, N2 their squared lengths
-//   theta     the angle from n1 to n2 about e, in (-pi, pi], zero if flat, negative if folded towards the normals; the
-//             measure.
-//             cos theta = n1.n2 / sqrt(N1 N2); sin theta = -L n1.b / sqrt(N1 N2), because n1 x n2 = -(n1.b) e
+//   theta     the measure: the angle from n1 to n2 about e, in (-pi, pi], zero if flat, negative if folded towards the
+//             normals. cos theta = n1.n2 / sqrt(N1 N2); sin theta = -L n1.b / sqrt(N1 N2), because n1 x n2 = -(n1.b) e
 //   V         K (1 - cos(theta - theta0)), see forces/angle.h
 //   K         rigidity L0^2 / A0, A0 the sum of the areas, all at rest. In the terms of Discrete Shells this is
 //             3 kb L0^2 / A0 with kb = rigidity / 3: then a regular mesh bent to a cylinder of curvature c has the
-//             energy rigidity/2 c^2 an area, that of a plate of this flexural rigidity (derived; a test measures it)
-// Gradients of theta: -L n1/N1 at x2, -L n2/N2 at x3; with the feet alpha = a.e/L^2, beta = b.e/L^2 of x2, x3 on the
-// edge alpha L n1/N1 + beta L n2/N2 at x1; at x0 what makes the sum zero.
+//             energy rigidity/2 c^2 per area, that of a plate of this flexural rigidity (derived; a test measures it)
+// Gradients of theta: -L n1/N1 at x2, -L n2/N2 at x3. With the feet alpha = a.e/L^2, beta = b.e/L^2 of x2, x3 on the
+// edge, alpha L n1/N1 + beta L n2/N2 at x1. At x0 the value that makes the sum zero.
 //
 // Two square roots and two divisions per event.
 //
-// What this does not do: the moment is greatest a right angle away from rest and weakens beyond. Without area there is
-// no angle: if a triangle has none there is no force, and the energy counts as K, the mean over all angles. Of a bent
-// plate, it has the Poisson ratio that the mesh gives it (-1/3 if equilateral; a hinge sees one curvature), not that of
-// the material.
+// The moment is greatest a right angle away from rest and weakens beyond. Without area there is no angle: if a triangle
+// has none, there is no force, and the energy counts as K, the mean over all angles. A bent plate has the Poisson ratio
+// of the mesh (-1/3 if equilateral; a hinge sees one curvature), not that of the material.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -34,7 +32,7 @@
 
 namespace noli::integrator {
 
-/// Young th^3 / (12 (1 - nu^2)) [N m]: what bending a plate to a cylinder takes.
+/// Young th^3 / (12 (1 - nu^2)) [N m]: the rigidity of a plate against bending to a cylinder.
 template <class S>
 S flexural_rigidity(const S& young, const S& poisson, const S& thickness) {
   return young * thickness * thickness * thickness / (S(12) * (S(1) - poisson * poisson));
@@ -71,7 +69,7 @@ struct Hinge {
     return angle_gradient(fold, constant * (fold.theta - rest).sine);
   }
 
-  /// Of theta.
+  /// The gradient of theta.
   std::array<X, measures> measure_gradients(const X& x) const { return {angle_gradient(fold_of(x), S(1))}; }
 
   std::array<S, measures> stiffness() const { return {constant}; }

@@ -14,8 +14,8 @@
 //
 // Neither division nor square root per event.
 //
-// What this does not do: the material softens under strong compression and does not resist being turned inside out or
-// crushed to a line (there the formulas hold, and the force is finite). No bending: forces/hinge.h.
+// The material softens under strong compression and does not resist being turned inside out or crushed to a line (the
+// formulas hold there, and the force is finite). It does not resist bending; forces/hinge.h does.
 #pragma once
 
 #include <cmath>
@@ -81,7 +81,7 @@ struct Membrane {
     return balanced(b11 * (s11 * f.f1 + s12 * f.f2) + b12 * h2, b22 * h2);
   }
 
-  /// Of E11, E22, E12.
+  /// The gradients of E11, E22, E12.
   std::array<X, measures> measure_gradients(const X& x) const {
     const Columns f = columns(x);
     const S half(0.5);
@@ -112,7 +112,7 @@ struct Membrane {
     return {half * (f.f1.squaredNorm() - S(1)), half * (f.f2.squaredNorm() - S(1)), half * f.f1.dot(f.f2)};
   }
 
-  /// The gradient at vertex 0 is what makes the sum zero.
+  /// The gradient at vertex 0 makes the sum zero.
   static X balanced(const Vec<S, 3>& g1, const Vec<S, 3>& g2) { return {-(g1 + g2), g1, g2}; }
 };
 

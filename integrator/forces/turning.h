@@ -4,17 +4,17 @@
 //
 // Notation
 //   x0, x1, x2   three vertices in a row; a = x1 - x0, b = x2 - x1
-//   phi          the turning angle from a to b in (-pi, pi], positive to the left; the measure.
-//                cos phi = a.b / (|a||b|), sin phi = a x b / (|a||b|)
+//   phi          the measure: the turning angle from a to b in (-pi, pi], positive to the left. cos phi = a.b /
+//                (|a||b|), sin phi = a x b / (|a||b|)
 //   V            K (1 - cos(phi - phi0)), see forces/angle.h
-//   K            2 rigidity / (|a| + |b|) at rest: a curve of curvature c has the energy rigidity/2 c^2 a length
+//   K            2 rigidity / (|a| + |b|) at rest: a curve of curvature c has the energy rigidity/2 c^2 per length
 //   J            the quarter turn to the left, (vx, vy) -> (-vy, vx)
-// Gradients of phi: J a/|a|^2 at x0, J b/|b|^2 at x2; at x1 what makes the sum zero.
+// Gradients of phi: J a/|a|^2 at x0, J b/|b|^2 at x2; at x1 the value that makes the sum zero.
 //
 // One square root and one division per event.
 //
-// What this does not do: the moment is greatest a right angle away from rest and weakens beyond. If two neighbours
-// coincide there is no angle: no force, and the energy counts as K, the mean over all angles.
+// The moment is greatest a right angle away from rest and weakens beyond. If two neighbours coincide there is no angle:
+// there is no force, and the energy counts as K, the mean over all angles.
 #pragma once
 
 #include <cmath>
@@ -60,7 +60,7 @@ struct Turning {
     return angle_gradient(turn, constant * (turn.phi - rest).sine);
   }
 
-  /// Of phi.
+  /// The gradient of phi.
   std::array<X, measures> measure_gradients(const X& x) const { return {angle_gradient(turn_of(x), S(1))}; }
 
   std::array<S, measures> stiffness() const { return {constant}; }

@@ -13,10 +13,10 @@
 namespace noli::integrator {
 namespace {
 
-/// Of springs in a row: compliances add. Written so that factors in the range of double do not overflow.
+/// The factor of springs in series: compliances add. Written so that factors in the range of double do not overflow.
 double in_series(double f, double g) { return f == g ? f : 2 / (1 / f + 1 / g); }
 
-/// What all parts of the work need.
+/// Shared by all parts of the work.
 template <int Dim>
 struct Work {
   const Scene& scene;
@@ -50,12 +50,13 @@ struct Work {
     return std::sqrt((x[1] - x[0]).squaredNorm());
   }
 
-  /// `cell`: where the force is.
+  /// `cell`: the cell of the force.
   template <class F, std::size_t N>
   void add(const F& force, const std::array<VertexId, N>& cell) {
     std::get<Sourced<F>>(forces).add(force, {static_cast<std::uint32_t>(index), centre(mesh.start, cell)});
   }
-  /// A force of the shape at rest. Throws InputError that names this cell of the mesh if the force refuses it.
+  /// Adds a force made from the shape at rest. Throws an InputError that names this cell of the mesh if the force
+  /// refuses it.
   template <class F, class Stiffness, std::size_t N>
   void add_from_rest(const std::array<VertexId, F::size>& ids, const Stiffness& stiffness, double damping,
                      const std::array<VertexId, N>& cell, const char* name, std::size_t number) {
@@ -73,7 +74,7 @@ void add_spring(Work<Dim>& work, const std::array<VertexId, 2>& edge, double con
   work.add(EdgeSpring<double, Dim>{work.in_scene(edge), constant, work.length(edge), damping}, edge);
 }
 
-/// Springs of loose edges.
+/// Adds springs of loose edges.
 template <int Dim>
 void stretch_curves(Work<Dim>& work) {
   const auto& edges = work.mesh.shape.mesh.edges;
@@ -91,7 +92,7 @@ void stretch_curves(Work<Dim>& work) {
   }
 }
 
-/// Turning angles where two loose edges meet.
+/// Adds turning angles at vertices where two loose edges meet.
 void bend_curves(Work<2>& work) {
   const Joints found = joints(work.mesh.shape.mesh);
   work.built.crowded += found.branchings;
@@ -126,7 +127,7 @@ void stretch_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {
   }
 }
 
-/// Two faces, and not the same three vertices twice.
+/// Whether an edge bends: it has two faces, and they are not the same three vertices.
 bool bends(const FaceEdge& edge) { return edge.count == 2 && edge.opposite[0] != edge.opposite[1]; }
 
 void bend_sheets(Work<3>& work, const std::vector<FaceEdge>& edges) {

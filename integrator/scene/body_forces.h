@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The elastic forces of one body (see build_model.h for which), without steps.
+// Makes the elastic forces of one body (build_model.h lists them), without steps.
 #pragma once
 
 #include "integrator/model.h"
@@ -9,7 +9,7 @@
 
 namespace noli::integrator {
 
-/// Where a force comes from.
+/// The origin of a force.
 struct Origin {
   std::uint32_t body = 0;
   Position centre{};  ///< at the start
@@ -30,7 +30,7 @@ struct Sourced {
 template <int Dim>
 using SourcedForces = OfEachForce<Sourced, double, Dim>;
 
-/// Appends the forces of a body whose first vertex is built.first; counts in `built` where there is no bending. Throws
+/// Appends the forces of a body whose first vertex is built.first; counts places without bending in `built`. Throws
 /// InputError for cells without size.
 void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built, SourcedForces<3>& forces);
 void add_forces(const Scene& scene, std::size_t body, const BodyMesh& mesh, BuiltBody& built, SourcedForces<2>& forces);

@@ -14,7 +14,7 @@
 namespace noli::integrator {
 namespace {
 
-constexpr std::size_t most_bodies = 4096;  ///< there is a table of their pairs
+constexpr std::size_t most_bodies = 4096;  ///< limits the table of their pairs
 constexpr std::size_t most_classes = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -22,13 +22,13 @@ double least_height(const std::vector<Position>& rest, const std::array<VertexId
   return length(to_vec(rest[edge[1]]) - to_vec(rest[edge[0]]));
 }
 
-/// Of a triangle: twice its area over its longest edge.
+/// The least height of a triangle: twice its area over its longest edge.
 double least_height(const std::vector<Position>& rest, const std::array<VertexId, 3>& face) {
   const Vec3 a = to_vec(rest[face[1]]) - to_vec(rest[face[0]]), b = to_vec(rest[face[2]]) - to_vec(rest[face[0]]);
   return length(cross(a, b)) / std::max({length(a), length(b), length(b - a)});
 }
 
-/// What of a body counts for contact.
+/// The properties of a body's free part that matter for contact.
 struct Free {
   double height = infinity;  ///< H of its cells
   double least_mass = infinity, greatest_mass = 0;
@@ -40,20 +40,20 @@ struct Free {
   }
 };
 
-/// A body's classes: which vertex is of which, what of each counts, and what of all.
+/// A body's classes: the class of each vertex, and the properties of each class and of all.
 struct Parts {
   std::vector<std::uint8_t> classes;
   std::vector<Free> of_class;
   Free all;
   double greatest_height = 0;
 
-  /// Heights of the class are at most this; infinity if there is one class only.
+  /// Heights of the class are at most this; infinity if there is only one class.
   double bound_of(std::size_t c) const {
     return of_class.size() == 1 ? infinity : std::ldexp(greatest_height, -static_cast<int>(c));
   }
 };
 
-/// Of each vertex, the least height at rest of its cells; infinity of those that have none.
+/// For each vertex, the least height at rest of its cells; infinity if it has none.
 std::vector<double> heights_of(const BodyMesh& body) {
   std::vector<double> heights(body.mass.size(), infinity);
   const auto look = [&](const auto& cells) {
@@ -88,8 +88,8 @@ Parts classify(const BodyMesh& body) {
   return parts;
 }
 
-/// What a cell with a free vertex says, is said of the classes of all its vertices: features of these are parts of it.
-/// A feature of a class may have vertices of all before it.
+/// Computes a body's classes. A cell with a free vertex counts for the classes of all its vertices, as their features
+/// are parts of it. A feature of a class may have vertices of all earlier classes.
 Parts parts_of(const BodyMesh& body, const BuiltBody& built, const std::vector<double>& inverse_mass) {
   const auto is_free = [&](VertexId i) { return inverse_mass[built.first + i] != 0; };
   bool any_free = false;
@@ -131,7 +131,7 @@ double greatest_speed(const Script<double, Dim>& script) {
   return greatest;
 }
 
-/// Of a fall from top to bottom.
+/// The speed of a fall from top to bottom.
 template <int Dim>
 double falling_speed(const Model<double, Dim>& model) {
   if (!model.gravity) return 0;
@@ -144,7 +144,7 @@ double falling_speed(const Model<double, Dim>& model) {
   return std::sqrt(2 * (greatest - least));
 }
 
-/// v, but for what the thickness asks of it.
+/// v, without its lower bound eta(1) / window.
 template <int Dim>
 double meeting_speed(const Model<double, Dim>& model) {
   double start = 0, scripts = 0;
@@ -153,7 +153,7 @@ double meeting_speed(const Model<double, Dim>& model) {
   return start + scripts + falling_speed(model);
 }
 
-/// How one pair of bodies meets: what is said of it, or of all, or the default.
+/// The contact of one pair of bodies: values for the pair, or for all pairs, or defaults.
 class PairContact {
  public:
   PairContact(const Scene& scene, const BodyPair& bodies, const Free& part, double speed)
@@ -180,7 +180,7 @@ class PairContact {
 
   double bound() const { return part_.height / 2; }
 
-  /// Where a thickness is said: 0 for all, 1 + k in pair k.
+  /// Where the scene gives the thickness: 0 for all pairs, 1 + k in pair k.
   std::optional<std::size_t> said_thickness() const {
     if (pair_ != nullptr && pair_->values.thickness) return 1 + index_;
     return scene_.contact->values.thickness ? std::optional<std::size_t>(0) : std::nullopt;
@@ -193,7 +193,7 @@ class PairContact {
     return pair_ != nullptr && pair_->values.*which ? pair_->values.*which : scene_.contact->values.*which;
   }
 
-  /// Where a value is said, for the pair or for all.
+  /// The field that gives a value, for the pair or for all.
   Field at(std::string_view name) const {
     const Field contact = field_of(scene_)["contact"];
     if (pair_ != nullptr && contact["pairs"][index_].has(name)) return contact["pairs"][index_][name];
@@ -213,12 +213,12 @@ class PairContact {
     return part_.greatest_mass * rate * rate;
   }
 
-  /// Where a stiffness comes from that is not said.
+  /// Explains a default stiffness, for messages.
   std::string stiffness_text(const ContactMaterial& m) const {
     if (value(&ContactValues::stiffness)) return "";
     const bool by_speed = speed_ / m.thickness > 1 / scene_.window;
     const std::string time =
-        by_speed ? fmt::format("in which {:.6g} m/s pass a thickness of {:.6g} m", speed_, m.thickness) : "of a window";
+        by_speed ? fmt::format("to cross a thickness of {1:.6g} m at {0:.6g} m/s", speed_, m.thickness) : "of a window";
     return fmt::format(
         "; no stiffness is given, and its default, {:.6g} [N/m], is the greatest mass of a vertex, {:.6g} "
         "kg, over the square of the time, {:.6g} s, {}",
@@ -244,7 +244,7 @@ class PairContact {
     return step;
   }
 
-  /// A step or a stability that is said of the pair stands for both of all.
+  /// A step or a stability of the pair replaces both general values.
   const ContactValues& said_of_step() const {
     const bool own = pair_ != nullptr && (pair_->values.step || pair_->values.stability);
     return own ? pair_->values : scene_.contact->values;
@@ -257,7 +257,7 @@ class PairContact {
   double speed_;
 };
 
-/// Gives pairs their materials, each material once.
+/// Gives pairs their materials, and stores each different material once.
 template <int Dim>
 class Materials {
  public:
@@ -283,7 +283,7 @@ class Materials {
     });
   }
 
-  /// Notes what the pair asks of a thickness that is said: it may be said of many.
+  /// Notes the bound that the pair sets for a given thickness, which may apply to many pairs.
   void bound(const BodyPair& pair, const Parts& first, const Parts& second) {
     for_each_way(pair, first, second, [&](std::size_t, std::size_t, const Free& part) {
       const PairContact contact(scene_, pair, part, speed_);
@@ -294,7 +294,7 @@ class Materials {
     });
   }
 
-  /// Refuses a thickness that is too great for any of the pairs that it is said of.
+  /// Refuses a thickness that is too great for any of its pairs.
   void require_bounds() const {
     for (const auto& [place, bound] : bounds_) {
       const Field at = place == 0 ? contact_field() : contact_field()["pairs"][place - 1];
@@ -314,7 +314,7 @@ class Materials {
     BodyPair bodies;
   };
 
-  /// Calls each(a, b, what counts) for all ways in which two bodies meet: class a of one and class b of the other.
+  /// Calls each(a, b, properties) for all pairs of classes of two bodies: class a of one and class b of the other.
   template <class Each>
   void for_each_way(const BodyPair& pair, const Parts& first, const Parts& second, const Each& each) const {
     if (!(first.all | second.all).any() || scene_.contact->excludes(pair)) return;
@@ -322,7 +322,7 @@ class Materials {
       for (std::size_t b = pair[0] == pair[1] ? a : 0; b < second.of_class.size(); ++b) {
         const Free &p = first.of_class[a], &q = second.of_class[b];
         Free part = p | q;
-        // Classes after the first bound the mass by their own, so the lighter one decides.
+        // Classes after the first bound the mass by their own mass, so the lighter one decides.
         if (a > 0 && p.any()) part.greatest_mass = std::min(part.greatest_mass, p.greatest_mass);
         if (b > 0 && q.any()) part.greatest_mass = std::min(part.greatest_mass, q.greatest_mass);
         each(a, b, part);
@@ -336,7 +336,8 @@ class Materials {
     std::vector<ContactMaterial>& list = settings().materials;
     const auto found = std::find(list.begin(), list.end(), material);
     if (found != list.end()) return static_cast<std::uint16_t>(found - list.begin());
-    if (list.size() == ContactSettings::excluded) contact_field().fail("expected fewer different ways to meet");
+    if (list.size() == ContactSettings::excluded)
+      contact_field().fail("expected at most 65535 different sets of values; give more pairs the same values");
     list.push_back(material);
     built_.contact.push_back({infinity, infinity, {}});
     return static_cast<std::uint16_t>(list.size() - 1);
@@ -347,7 +348,7 @@ class Materials {
   const Scene& scene_;
   BuiltScene<Dim>& built_;
   double speed_;
-  std::map<std::size_t, Bound> bounds_;  ///< by where a thickness is said
+  std::map<std::size_t, Bound> bounds_;  ///< by said_thickness()
 };
 
 void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
@@ -358,10 +359,10 @@ void add_classes(const std::vector<Parts>& parts, ContactSettings& settings) {
   for (const Parts& p : parts) settings.classes.insert(settings.classes.end(), p.classes.begin(), p.classes.end());
 }
 
-/// Lengths of contact have enough digits and range. What certificates keep clear for what is recorded
-/// (certificates/decisions.h, 64 times) is less than any layer. Closest points are found with products of
-/// four lengths (certificates/closest.h), which have to stay within the range of double, with some room for what moves
-/// away and for layers that are thinner than the first.
+/// Requires that lengths of contact have enough digits and range. 64 times the distance that certificates keep clear
+/// for recorded positions (certificates/decisions.h) must be less than any layer. Closest points need products of four
+/// lengths (certificates/closest.h). These must stay within the range of double, with some room for bodies that move
+/// away and for layers thinner than the first.
 template <int Dim>
 void require_numbers(const Scene& scene, const Model<double, Dim>& model) {
   constexpr double part = 0x1p-38, least = 1e-70, greatest = 1e70;
@@ -371,14 +372,14 @@ void require_numbers(const Scene& scene, const Model<double, Dim>& model) {
   const Field at = field_of(scene)["contact"]["thickness"];
   if (!(part * farthest < thinnest)) {
     at.fail(
-        fmt::format("expected more than {:.3g} where coordinates are as large as {:.3g}, found {:.3g}: what is "
-                    "nearer cannot be told from their rounding",
+        fmt::format("expected more than {:.3g} where coordinates are as large as {:.3g}, found {:.3g}: smaller "
+                    "distances are lost in their rounding",
                     part * farthest, farthest, thinnest));
   }
   if (!(thinnest >= least && farthest <= greatest)) {
     at.fail(
         fmt::format("expected at least {:g} [m], and coordinates of at most {:g}, found {:.3g} and {:.3g}: contact "
-                    "needs the fourth powers of lengths, which leave the range of numbers",
+                    "needs the fourth powers of lengths, which must stay in the range of double",
                     least, greatest, thinnest, farthest));
   }
 }

@@ -58,13 +58,13 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
   built.pinned = made.pinned.size();
 }
 
-/// A step that the scene gives, and where.
+/// A step that the scene gives, and the place of its field.
 struct Given {
   std::optional<double> step;
   std::optional<std::size_t> patch;
 };
 
-/// By the last patch that has one and the force's centre in it, or the body.
+/// The step from the last patch that has one and contains the force's centre, or from the body.
 Given given_step(const Body& body, const Position& centre, std::optional<double> GivenSteps::*which) {
   Given given{body.steps.*which, {}};
   for (std::size_t p = 0; p < body.patches.size(); ++p) {
@@ -84,7 +84,7 @@ bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKin
                   limit, name(kind), *given.step));
 }
 
-/// Times must be multiples of the step that double precision can tell apart.
+/// Refuses a stiffness for whose steps double precision cannot distinguish the multiples.
 [[noreturn]] void refuse_stiffness(const Scene& scene, std::size_t body, ForceKind kind, double limit) {
   field_of_body(scene, body)["material"].fail(
       fmt::format("expected steps that can be counted over the duration; the limit of stability of a {} is {} [s]: too "
@@ -92,7 +92,7 @@ bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKin
                   name(kind), limit));
 }
 
-/// Leaves out what moves nothing, and gives the rest their steps.
+/// Leaves out forces that move nothing, and gives the others their steps.
 template <class F, int Dim>
 ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std::vector<Vec<double, Dim>>& x,
                         const std::vector<double>& inverse_mass, std::vector<BuiltBody>& built) {
@@ -127,8 +127,8 @@ void add_gravity(const Scene& scene, Model<double, Dim>& model) {
   model.gravity = Gravity<double, Dim>{cut<Dim>(to_vec(scene.gravity)), scene.gravity_step.value_or(scene.window / 16)};
 }
 
-/// What has forces falls with their steps. What has none strikes others in the middle of a step of gravity each time,
-/// and would lose by a long one (integrator/falling.h).
+/// Vertices with forces fall with the steps of these. Vertices without forces meet others in the middle of a step of
+/// gravity each time, and would lose energy with long steps (integrator/falling.h).
 template <int Dim>
 void choose_gravity_steps(const Scene& scene, Model<double, Dim>& model) {
   if (!model.gravity) return;
@@ -145,7 +145,7 @@ void choose_gravity_steps(const Scene& scene, Model<double, Dim>& model) {
   }
 }
 
-/// Bounds the memory for breakpoints. Large meshes get room for a few at each vertex.
+/// Bounds the memory for breakpoints. Large meshes get room for a few per vertex.
 template <int Dim>
 void limit_breakpoints(const Scene& scene, Model<double, Dim>& model) {
   constexpr std::size_t least = 4'000'000, of_a_vertex = 8;
@@ -168,7 +168,7 @@ std::vector<std::vector<Position>> load_frames(const Scene& scene, const ScriptF
   return loaded;
 }
 
-/// Times of the frames; k / rate is rounded, so at a great rate two may coincide.
+/// The times of the frames. k / rate is rounded, so at a high rate two may coincide.
 std::vector<double> frame_times(const ScriptFrames& frames, const Field& at) {
   std::vector<double> times;
   for (std::size_t k = 0; k < frames.files.size(); ++k) {
@@ -179,7 +179,7 @@ std::vector<double> frame_times(const ScriptFrames& frames, const Field& at) {
   return times;
 }
 
-/// Gives the chosen vertices of one body the paths of one script. `first`: of the body, in the scene.
+/// Gives the chosen vertices of one body the paths of one script. `first`: the body's first vertex in the scene.
 template <int Dim>
 void follow(const Scene& scene, std::size_t index, const BodyMesh& body, VertexId first,
             const std::vector<VertexId>& chosen, Model<double, Dim>& model) {
@@ -203,10 +203,10 @@ void follow(const Scene& scene, std::size_t index, const BodyMesh& body, VertexI
   }
 }
 
-/// Scripts of a scene, and the start positions and velocities that they change: a scripted vertex begins where its path
-/// does, and its start velocity is zero here, as its path knows better. Fills in built[i].scripted. Throws InputError:
-/// vertices that are not there, that are pinned, that another script moves; frames that do not load or have another
-/// number of vertices.
+/// Adds the scripts of a scene, and changes start positions and velocities: a scripted vertex begins where its path
+/// does, and its start velocity is zero here, as its path determines it. Fills in built[i].scripted. Throws InputError:
+/// vertices that do not exist, are pinned, or have another script; frames that do not load or have another number of
+/// vertices.
 template <int Dim>
 void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::vector<BuiltBody>& built,
                  Model<double, Dim>& model) {
@@ -220,9 +220,10 @@ void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::v
     if (chosen.empty()) vertices.fail("expected at least one vertex");
     for (const VertexId i : chosen) {
       if (std::binary_search(body.pinned.begin(), body.pinned.end(), i)) {
-        vertices.fail(fmt::format("expected vertices that are not pinned; {} is", i));
+        vertices.fail(fmt::format("expected vertices that are not pinned; vertex {} is pinned", i));
       }
-      if (taken[first + i]) vertices.fail(fmt::format("expected vertices that no other script moves; {} has one", i));
+      if (taken[first + i])
+        vertices.fail(fmt::format("expected vertices that no other script moves; vertex {} has a script already", i));
       taken[first + i] = true;
     }
     built[script.body].scripted += chosen.size();

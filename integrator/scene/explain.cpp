@@ -15,14 +15,14 @@
 namespace noli::integrator {
 namespace {
 
-constexpr double most_breakpoints = 2e6;  ///< a window, about (design, "Volume")
+constexpr double most_breakpoints = 2e6;  ///< per window, approximately (design, "Volume")
 
-/// Sorts what a scene could have into what it has and what it has not.
+/// Sorts the possible features of a scene into those that it has and those that it lacks.
 class Survey {
  public:
   Survey(const Scene& scene, Explanation& explanation) : scene_(scene), out_(explanation) {}
 
-  /// `forces` of this kind act; `why_not` for when there are none.
+  /// `count` forces of this kind act; `why_not`: the reason if there are none.
   void forces(std::size_t count, const std::string& what, const std::string& why_not) {
     say(count > 0, fmt::format("{} {}", count, what), what, why_not);
   }
@@ -109,7 +109,7 @@ std::string part_name(const BuiltScene<Dim>& built, const BuiltPair& pair, std::
   return std::isfinite(heights) ? fmt::format("{} (cells up to {:.3g} m)", name, heights) : name;
 }
 
-/// What bodies do to each other.
+/// Describes how bodies meet.
 template <int Dim>
 void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
   if (!built.model.contact) return;
@@ -125,7 +125,7 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
   }
 }
 
-/// `most`: breakpoints of a window.
+/// `most`: the most breakpoints of a window.
 void warn(const Scene& scene, std::size_t most, Explanation& e) {
   if (scene.allow_unstable)
     e.warnings.emplace_back("steps above the limit of stability are accepted (\"allow_unstable\")");
@@ -148,14 +148,13 @@ template <int Dim>
 void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation& e) {
   for (const Pinch& pinch : find_pinches(built, duration)) {
     e.warnings.push_back(
-        fmt::format("{} and {} come to touch each other at about {:.6g} s: what is free between them then is pressed "
-                    "to no gap, for "
-                    "which no number of layers is enough",
+        fmt::format("{} and {} come to touch each other at about {:.6g} s: anything free between them is then squeezed "
+                    "to a gap of 0, for which no number of layers is enough",
                     built.bodies[pinch.bodies[0]].name, built.bodies[pinch.bodies[1]].name, pinch.time));
   }
 }
 
-/// Bodies with cells that only the scene moves.
+/// Warns of bodies whose cells only the scene moves.
 template <int Dim>
 void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) {
   std::vector<VertexId> cells = held_cells(built.model.mesh, held_vertices(built.model));
@@ -172,7 +171,7 @@ void warn_of_what_is_not_compared(const BuiltScene<Dim>& built, Explanation& e) 
                   fmt::join(names.begin(), names.end() - 1, ", "), names.back()));
 }
 
-/// Fields that the schema gives no default, because it depends on others: what stands for those that are absent.
+/// Values for absent fields without a default in the schema, because the default depends on other fields.
 class Derived {
  public:
   explicit Derived(std::vector<DefaultTaken>& defaults) : defaults_(defaults) {}
@@ -184,7 +183,7 @@ class Derived {
     add(steps, "stretch", "estimated");
     add(steps, "bend", "estimated");
   }
-  /// Of all pairs that say nothing else, where that is one number.
+  /// Values for all pairs without values of their own, if they have a common value.
   void contact(const Field& at, const std::vector<PredictedContact>& ways) {
     const auto add_common = [&](const std::string& name, auto of) {
       const bool same = std::all_of(ways.begin(), ways.end(), [&](auto& way) { return of(way) == of(ways.front()); });

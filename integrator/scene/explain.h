@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene will do, before it does it.
+// Predicts what a scene will do, before it runs.
 //
-// Predictions: forces fire at 1/step; a vertex has a breakpoint whenever a force moves it, so at most one for each step
-// of its forces (steps that are parts of each other share theirs), one for each point of its script, and one at each
-// window's end. The bytes are those of the blocks of trajectory.blocks (trajectory/FORMAT.md), without proofs.
+// Predictions: forces fire at 1/step. A vertex has a breakpoint whenever a force moves it: at most one for each step of
+// its forces (steps that divide each other share theirs), one for each point of its script, and one at each window's
+// end. The bytes are those of the blocks of trajectory.blocks (trajectory/FORMAT.md), without proofs.
 //
-// Resonance (integrator/resonance.h) is looked for vertex by vertex, its neighbours held still: its forces of one step
-// give it up to two or three directions of oscillation; along each of these the forces of every longer step are the
-// slow ones.
+// Resonance (integrator/resonance.h) is looked for vertex by vertex, with its neighbours at rest. Its forces of one
+// step give it up to two or three directions of oscillation; along each of these, the forces of every longer step are
+// the slow ones.
 //
-// Contact has no prediction: its layers fire as long as things are near.
-//
-// What this does not do: it does not look for contact, does not guess how long a run takes, and sees only the start.
+// Contact is not predicted: its layers fire as long as features are near. Neither is the run time. Everything is
+// computed from the start positions.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ struct LeftOut {
   std::string what, why;
 };
 
-/// One way to meet, and the pairs of bodies that do.
+/// One material of contact, and the pairs of bodies that have it.
 struct PredictedContact {
   std::vector<std::array<std::string, 2>> pairs;
   ContactMaterial material;
@@ -37,21 +36,21 @@ struct PredictedContact {
   double bound = 0;      ///< of the thickness [m]; infinite if nothing bounds it
 };
 
-/// Forces that fire together; or, with steps of their own, all of one kind.
+/// Forces that fire together; if forces have clocks of their own, all of one kind.
 struct PredictedGroup {
   ForceKind kind{};
   std::size_t forces = 0;
   double shortest = 0, longest = 0;  ///< step [s]
-  double events = 0;                 ///< a second of simulated time
+  double events = 0;                 ///< per second of simulated time
 };
 
-/// A pair of steps that kick in time with an oscillation.
+/// A pair of steps of which one kicks in time with an oscillation of the other.
 struct ResonanceWarning {
   ForceKind slow_kind{}, fast_kind{};
   double slow_step = 0, fast_step = 0;  ///< [s]
-  std::size_t vertices = 0;             ///< at how many
+  std::size_t vertices = 0;             ///< the number of vertices with this resonance
   VertexId vertex = 0;                  ///< the one where the slow kicks are strongest
-  Meeting meeting;                      ///< there
+  Meeting meeting;                      ///< at that vertex
 };
 
 struct Explanation {
@@ -66,7 +65,7 @@ struct Explanation {
   LayerSchedule layers;
   std::uint32_t most_layers = 0;
   double windows = 0;                             ///< of the whole run
-  double events = 0, breakpoints = 0, bytes = 0;  ///< a second of simulated time
+  double events = 0, breakpoints = 0, bytes = 0;  ///< per second of simulated time
   double breakpoints_a_window = 0;
   double bytes_in_all = 0;
   std::vector<ResonanceWarning> resonances;
@@ -76,7 +75,7 @@ struct Explanation {
 /// Throws InputError as build_model does.
 Explanation explain(const Scene& scene);
 
-/// What whoever runs the scene should know beforehand, each without a full stop: the warnings, then resonances.
+/// Notes for the user before a run, each without a full stop: the warnings, then resonances.
 std::vector<std::string> notes(const Explanation& explanation);
 
 /// For people: several lines, a newline at the end.

@@ -20,7 +20,7 @@ std::string place(std::string_view text, std::size_t offset) {
   return fmt::format("line {}, column {}", line, before.size() - start + 1);
 }
 
-/// What the parser says after its own place: "syntax error while parsing value - unexpected ...".
+/// The parser's message without its own place: "syntax error while parsing value - unexpected ...".
 std::string reason(std::string_view what) {
   for (const std::string_view start : {"syntax error", "number overflow"}) {
     if (const auto at = what.find(start); at != std::string_view::npos) return std::string(what.substr(at));
@@ -28,9 +28,9 @@ std::string reason(std::string_view what) {
   return std::string(what);
 }
 
-constexpr std::size_t deepest = 64;  ///< levels: what writes JSON, for messages, calls itself
+constexpr std::size_t deepest = 64;  ///< levels, as writing JSON for messages is recursive
 
-/// Builds the document, and refuses a field that is there already.
+/// Builds the document, and refuses fields that occur twice.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -51,7 +51,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     key_of_.back() = name;
-    if (open_.back()->contains(name)) throw InputError(file_, path(), "this field is there twice");
+    if (open_.back()->contains(name)) throw InputError(file_, path(), "expected this field once, found it twice");
     return true;
   }
 
@@ -83,7 +83,7 @@ class Builder : public nlohmann::json_sax<Json> {
     key_of_.pop_back();
     return true;
   }
-  /// The JSON pointer of the field that is being read. Precondition: arrays have their item already.
+  /// The JSON pointer of the field that is being read. Precondition: arrays already contain the current item.
   std::string path() const {
     Json::json_pointer pointer;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -99,7 +99,7 @@ class Builder : public nlohmann::json_sax<Json> {
   std::string_view text_;
   const std::string& file_;
   std::vector<Json*> open_;          ///< from the outermost
-  std::vector<std::string> key_of_;  ///< of each, its last key
+  std::vector<std::string> key_of_;  ///< the last key of each
 };
 
 }  // namespace

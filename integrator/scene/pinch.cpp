@@ -18,7 +18,7 @@ namespace {
 template <std::size_t N>
 using Simplices = std::vector<std::array<VertexId, N>>;
 
-/// The features of a body that cannot be moved by forces.
+/// The features of a body that forces cannot move.
 struct Tool {
   std::size_t body = 0;
   Simplices<1> vertices;
@@ -53,7 +53,7 @@ Tool make_tool(const BuiltScene<Dim>& scene, std::size_t index) {
   return tool;
 }
 
-/// Positions of all vertices of all tools at the ends of a time.
+/// Positions of all vertices of all tools at the ends of a time interval.
 template <int Dim>
 class Motion {
  public:
@@ -174,7 +174,7 @@ class Search {
     }
   }
 
-  /// Keeps the earliest contact of features of two kinds, in parts of the step.
+  /// Keeps the earliest contact of features of two kinds, as a share of the step.
   template <FeaturePair Pair, std::size_t N, std::size_t M>
   void look(const std::vector<Moving<N>>& as, const std::vector<Moving<M>>& bs, std::optional<double>& earliest) const {
     for (const Moving<N>& a : as) {
@@ -188,7 +188,7 @@ class Search {
         std::copy(a.end.begin(), a.end.end(), query.x_t1.begin());
         std::copy(b.end.begin(), b.end.end(), query.x_t1.begin() + N);
         const std::optional<TimeEnclosure> found = contact(query);
-        // What stays in contact may have an enclosure as long as the step.
+        // A pair that stays in contact may have an enclosure as long as the step.
         if (!found || (earliest && found->begin >= *earliest)) continue;
         const double first = first_contact(query)->time.lower();
         if (!earliest || first < *earliest) earliest = first;

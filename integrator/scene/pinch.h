@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scripted bodies that come to touch each other: what is free between them would be pressed to no gap, which takes
-// layers without end.
+// Finds scripted bodies that come to touch each other: anything free between them would be squeezed to a gap of 0,
+// which takes infinitely many layers.
 //
-// What this does not do: it does not know whether anything will be between them, nor does it look at bodies some of
-// whose vertices are free. Positions between breakpoints are rounded.
+// It does not know whether anything will be between them. It ignores bodies with free vertices. Positions between
+// breakpoints are rounded.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ namespace noli::integrator {
 
 struct Pinch {
   std::array<std::size_t, 2> bodies{};
-  double time = 0;  ///< of the first contact, but for rounding [s]
+  double time = 0;  ///< of the first contact, up to rounding [s]
 };
 
-/// Pairs of bodies, no vertex of which is free, that are apart at the start and meet before `duration`; the first time
-/// of each pair.
+/// Pairs of bodies without free vertices that are apart at the start and meet before `duration`; with the first time of
+/// each pair.
 template <int Dim>
 std::vector<Pinch> find_pinches(const BuiltScene<Dim>& scene, double duration);
 

@@ -17,20 +17,20 @@
 namespace noli::integrator {
 namespace {
 
-/// Which forces: kind and step.
+/// Kind and step of forces.
 using ForceStep = std::pair<ForceKind, double>;
 
 /// The forces of one kind and step at a vertex.
 template <int Dim>
 struct Pull {
   ForceStep force_step;
-  Eigen::Matrix<double, Dim, Dim> squared_frequencies;  ///< of the vertex, its neighbours held still
+  Eigen::Matrix<double, Dim, Dim> squared_frequencies;  ///< of the vertex, with its neighbours at rest
 };
 
-/// What the forces do to each vertex.
+/// The forces at each vertex.
 template <int Dim>
 struct AtVertices {
-  std::vector<std::vector<Pull<Dim>>> pulls;  ///< different steps each
+  std::vector<std::vector<Pull<Dim>>> pulls;  ///< by vertex, with different steps
   std::vector<std::uint8_t> held;             ///< by vertex: it cannot move
 };
 
@@ -58,7 +58,7 @@ void add_pulls(const F& force, double step, const Model<double, Dim>& model, AtV
 template <int Dim>
 using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>;
 
-/// Warnings by pairs of steps. With steps of their own nearly every pair of steps is another: then by kinds.
+/// Warnings by pairs of steps. If forces have clocks of their own, nearly all pairs of steps differ; then by kinds.
 class Warnings {
  public:
   explicit Warnings(Clocks clocks) : by_step_(clocks == Clocks::grouped) {}
@@ -82,10 +82,10 @@ class Warnings {
  private:
   bool by_step_;
   std::map<std::tuple<ForceKind, double, ForceKind, double>, ResonanceWarning> by_pair_;
-  std::map<const ResonanceWarning*, VertexId> last_vertex_;  ///< at which it was seen
+  std::map<const ResonanceWarning*, VertexId> last_vertex_;  ///< the last vertex with this warning
 };
 
-/// Warns where the slow forces meet an oscillation of the fast ones in resonance.
+/// Warns of slow forces in resonance with an oscillation of the fast ones.
 template <int Dim>
 void warn_of_resonances(const Pull<Dim>& slow, const ForceStep& fast, const Axes<Dim>& axes, VertexId vertex,
                         Warnings& warnings) {
@@ -131,7 +131,7 @@ void add_groups(ForceKind kind, const std::vector<double>& steps, Clocks clocks,
   }
 }
 
-/// Gravity acts at the ends of windows too, where these are no times of its steps.
+/// Gravity also acts at the ends of windows that are not multiples of its steps.
 template <int Dim>
 void add_gravity_groups(const Model<double, Dim>& model, const AtVertices<Dim>& at, Explanation& explanation) {
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -151,8 +151,8 @@ void add_gravity_groups(const Model<double, Dim>& model, const AtVertices<Dim>& 
   explanation.events += at_ends;
 }
 
-/// Breakpoints a second of a vertex that can move. Windows end at a rate of their own; steps of groups are parts of one
-/// another and of the window, so the shortest has the breakpoints of all; others share none.
+/// Breakpoints per second of a vertex that can move. Windows end at a rate of their own. Steps of groups divide each
+/// other and the window, so the shortest one has the breakpoints of all; other steps share none.
 template <int Dim>
 double rate(const std::vector<Pull<Dim>>& pulls, const Model<double, Dim>& model) {
   std::set<double> steps{model.window_length};
@@ -176,8 +176,8 @@ double breakpoint_rate(const Scene& scene, const Model<double, Dim>& model, cons
   return sum;
 }
 
-/// Of the blocks of a window: a time and a position for each breakpoint, or positions for each frame, and the state at
-/// the end.
+/// Bytes per second in the blocks of windows: a time and a position for each breakpoint, or positions for each frame,
+/// and the state at the end.
 template <int Dim>
 double byte_rate(const Scene& scene, std::size_t vertices, double breakpoints) {
   constexpr double vector = 8.0 * Dim;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The numbers of an explanation: groups, rates, bytes, resonances. See explain.h for what they mean.
+// Computes the numbers of an explanation: groups, rates, bytes, resonances. explain.h defines them.
 #pragma once
 
 #include "integrator/scene/explain.h"

@@ -206,7 +206,7 @@ Torus read_torus(const Field& f) {
   return torus;
 }
 
-/// Sheets are for space; curves, and what files have, for both.
+/// Sheets need space; curves and files work in both dimensions.
 void require_dimension(const Field& mesh, std::string_view kind) {
   if (mesh.dimension() == 3 || kind == "points" || kind == "chain" || kind == "ring" || kind == "file") return;
   mesh[kind].fail("expected \"points\", \"chain\", \"ring\" or \"file\" in a scene of dimension 2");

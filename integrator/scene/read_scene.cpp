@@ -14,7 +14,7 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
-/// Whether a text is a JSON pointer to a field of an object, there or new, or to an item of an array that is there.
+/// Whether a text is a JSON pointer to a field of an object, existing or new, or to an existing item of an array.
 bool is_place(const Json& document, const std::string& text) {
   try {
     const Pointer target(text);
@@ -23,14 +23,14 @@ bool is_place(const Json& document, const std::string& text) {
     const Pointer parent = target.parent_pointer();
     return document.contains(parent) && document.at(parent).is_object();
   } catch (const Json::exception&) {
-    return false;  // no pointer, or an index beyond all numbers
+    return false;  // not a pointer, or an index that is too large
   }
 }
 
-/// Puts the overrides of the short form in their places.
+/// Applies the overrides of the short form.
 void apply_short(Json& document, const std::string& file) {
   const Json overrides = document.is_object() ? document.value("short", Json()) : Json();
-  if (!overrides.is_object()) return;  // the schema will say so
+  if (!overrides.is_object()) return;  // the schema will report it
   for (const auto& item : overrides.items()) {
     if (!is_place(document, item.key())) {
       throw InputError(file, (Pointer("/short") / item.key()).to_string(),
@@ -40,7 +40,7 @@ void apply_short(Json& document, const std::string& file) {
   }
 }
 
-/// Default vectors have three numbers; a plane scene takes two of them.
+/// Default vectors have three numbers; a scene of dimension 2 takes two of them.
 void cut_default_vectors(Scene& scene) {
   for (DefaultTaken& taken : scene.defaults) {
     if (!taken.value.is_array() || taken.value.size() != 3 || !taken.value[0].is_number()) continue;
@@ -125,8 +125,8 @@ LayerSchedule read_layers(const Field& f) {
   if (!s.diverges()) {
     const int least = 2 * s.thickness_quarters - 4;
     f["stiffness_exponent"].fail(
-        fmt::format("expected at least {}, twice the thickness_exponent less 1, found {}: the layers' energies, "
-                    "stiffness * thickness^2, have a finite sum, so that a great speed gets through",
+        fmt::format("expected at least {}, 2 * thickness_exponent - 1, found {}: the layers' energies, stiffness * "
+                    "thickness^2, have a finite sum, so a fast impact gets through",
                     least / 4.0, s.stiffness_quarters / 4.0));
   }
   if (!s.outruns()) {
@@ -154,9 +154,9 @@ ContactPair read_contact_pair(const Field& f, const Scene& scene, const SceneCon
   return pair;
 }
 
-/// Reads the object `contact`, which the schema has accepted. Throws InputError: bodies that are not there, pairs that
-/// are said twice or are excluded, both of two fields that exclude each other, steps longer than the window or above
-/// the limit of stability (unless allow_unstable), exponents that let something through.
+/// Reads the object `contact`, which the schema has accepted. Throws InputError: unknown bodies, pairs that occur twice
+/// or are excluded, both of two fields that exclude each other, steps longer than the window or above the limit of
+/// stability (unless allow_unstable), exponents with which layers cannot stop every impact.
 SceneContact read_contact(const Field& f, const Scene& scene) {
   SceneContact contact{read_values(f, scene.allow_unstable),
                        read_layers(f["layers"]),

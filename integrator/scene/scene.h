@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene as plain data: what schemas/scene.json describes, with every default filled in. SI units. Vectors of plane
-// scenes have a third coordinate, which is zero.
-//
-// What this does not do: it has no meshes yet (integrator/scene/build_model.h makes them).
+// A scene as plain data: the fields of schemas/scene.json, with every default filled in. SI units. Vectors of scenes of
+// dimension 2 have a third coordinate, which is zero. integrator/scene/build_model.h makes the meshes.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +21,10 @@
 
 namespace noli::integrator {
 
-constexpr double most_vertices = 2e7;  ///< of a generated mesh: what fits into memory with all its forces
+constexpr double most_vertices = 2e7;  ///< of a generated mesh; more would not fit into memory with all their forces
 
 struct MeshFile {
-  std::string path;  ///< as the scene has it
+  std::string path;  ///< as written in the scene
   friend bool operator==(const MeshFile&, const MeshFile&) = default;
 };
 
@@ -50,7 +48,7 @@ struct Ring {
 
 enum class Diagonals : std::uint8_t { alternating, parallel };
 
-/// Where a grid's triangles are smaller, so many times.
+/// A place at which a grid's triangles are smaller by a factor.
 struct FinePlace {
   std::array<double, 2> at{};
   double factor = 2, radius = 0;
@@ -118,7 +116,7 @@ struct Deform {
   friend bool operator==(const Deform&, const Deform&) = default;
 };
 
-/// About an axis through the origin.
+/// A turn about an axis through the origin.
 struct AxisTurn {
   Position axis{0, 0, 1};  ///< of any length but zero
   double degrees = 0;
@@ -138,7 +136,7 @@ struct Transform {
   friend bool operator==(const Transform&, const Transform&) = default;
 };
 
-/// Copies in rows.
+/// Copies of a body in rows.
 struct Array {
   std::array<std::uint32_t, 3> counts{1, 1, 1};
   Position spacing{};
@@ -153,7 +151,7 @@ struct ElasticMaterial {
   friend bool operator==(const ElasticMaterial&, const ElasticMaterial&) = default;
 };
 
-/// Mass of a sheet's area [kg/m^2], of a curve's length [kg/m], of a vertex by itself [kg].
+/// Mass per area of a sheet [kg/m^2], per length of a curve [kg/m], per vertex [kg].
 struct Densities {
   double area = 0, length = 0, vertex = 0;
   friend bool operator==(const Densities&, const Densities&) = default;
@@ -161,7 +159,7 @@ struct Densities {
 
 struct SpringMaterial {
   double edge_stiffness = 0, bending_stiffness = 0;
-  Densities densities;  ///< one of them
+  Densities densities;  ///< exactly one is given
   friend bool operator==(const SpringMaterial&, const SpringMaterial&) = default;
 };
 
@@ -171,19 +169,19 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// Closed.
+/// A closed box.
 struct Box {
   Position low{}, high{};
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Steps that the scene itself gives [s].
+/// Steps given in the scene [s].
 struct GivenSteps {
   std::optional<double> stretch, bend;
   friend bool operator==(const GivenSteps&, const GivenSteps&) = default;
 };
 
-/// Factors and steps for the cells whose centre is in the box; the last patch that gives a step is the one that counts.
+/// Factors and steps for the cells whose centre is in the box. The last patch that gives a step counts.
 struct Patch {
   Box box;
   double stiffness_factor = 1, density_factor = 1;
@@ -202,7 +200,7 @@ struct Body {
   Array array;
   double perturb = 0;
   Position velocity{};
-  Position spin{};  ///< in the plane its third coordinate
+  Position spin{};  ///< in dimension 2 only its third coordinate
   Material material;
   std::vector<Patch> patches;
   bool stretch = true, bend = true;
@@ -233,10 +231,10 @@ struct ScriptedVertices {
 constexpr double default_stability = 0.05;  ///< of contact: step / sqrt(mass / (2 stiffness))
 constexpr double greatest_stability = 0.5;  ///< above it a bounce gains energy without end
 
-/// How bodies meet, as far as it is said.
+/// How bodies meet, as far as it is given.
 struct ContactValues {
   std::optional<double> thickness, stiffness, step, stability;
-  std::optional<double> restitution;  ///< of energy, however it was said
+  std::optional<double> restitution;  ///< of energy, even if it was given for velocity
   std::optional<double> friction;
   friend bool operator==(const ContactValues&, const ContactValues&) = default;
 };
@@ -251,7 +249,7 @@ struct ContactPair {
 };
 
 struct SceneContact {
-  ContactValues values;  ///< of all pairs that say nothing else
+  ContactValues values;  ///< for all pairs without values of their own
   LayerSchedule layers;
   bool inclusion_exclusion = false;
   std::uint32_t most_layers = 1000;
@@ -265,7 +263,7 @@ struct SceneContact {
 enum class Record : std::uint8_t { full, frames };
 
 struct Scene {
-  std::filesystem::path path;  ///< of the file; those it names are relative to its folder
+  std::filesystem::path path;  ///< of the file; paths in it are relative to its folder
   std::string title, about;
   int dimension = 3;
   double duration = 0, window = 0;
@@ -281,22 +279,22 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<ScriptedVertices> scripts;
   std::optional<SceneContact> contact;  ///< nothing: a contact ends the run
-  Json document;                        ///< what was read: overrides applied, defaults filled in
+  Json document;                        ///< the document that was read, with overrides applied and defaults filled in
   std::vector<DefaultTaken> defaults;
 };
 
-/// How many windows reach up to a time. A time that is a whole number of windows except for rounding, as 0.07 of 0.01,
-/// takes just that number.
+/// How many windows reach up to a time. If the time is a whole number of windows up to rounding, such as 0.07 with
+/// windows of 0.01, it is exactly that number.
 inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }
 
-/// Whether some of the windows that a run has, up to `time`, have ended early.
+/// Whether some of the `there` windows of a run up to `time` have ended early.
 inline bool some_ended_early(std::uint64_t there, double time, double window) {
   return static_cast<double>(there) > windows_up_to(time, window);
 }
 
-/// The least number of windows with which a run that has `there`, the last of them up to `time`, comes to the end of
-/// `all`. It takes more if more of them end early, because they have too many breakpoints. Empty if no run can have
-/// reached this time.
+/// The least total number of windows of a run that has `there` windows up to `time`, if the whole run has `all` windows
+/// when none ends early. It takes more if further windows end early because they have too many breakpoints. Empty if no
+/// run can have reached this time.
 inline std::optional<std::uint64_t> windows_in_all(std::uint64_t there, double time, double window, std::uint64_t all) {
   if (!(time >= 0 && time < 0x1p52 * window)) return std::nullopt;
   const std::uint64_t behind = first_after(time, window) - 1;

@@ -112,7 +112,7 @@ class Validator {
     fail(at, fmt::format("expected {}{}, found {}", what, unit, brief(value)));
   }
 
-  /// The schema with what its $ref points to; what stands beside the $ref comes first.
+  /// The schema merged with the target of its $ref; members next to the $ref take precedence.
   Json resolved(const Json& schema) const {
     if (!schema.contains("$ref")) return schema;
     const auto target = schema["$ref"].get<std::string>();
@@ -178,7 +178,7 @@ class Validator {
   }
 
   void check_object(const Json& schema, Json& value, const Json::json_pointer& at) {
-    if (!schema.contains("properties")) return;  // free of form
+    if (!schema.contains("properties")) return;  // any members are allowed
     const Json& properties = schema["properties"];
     for (const auto& item : value.items()) {
       if (!properties.contains(item.key())) fail_unknown(properties, item.key(), at);
@@ -204,7 +204,7 @@ class Validator {
          fmt::format("unknown field; the nearest known one is {}", Json(nearest(name, keys(properties))).dump()));
   }
 
-  /// " (of each edge)", " (kg/m^3)": what a missing field would say.
+  /// The meaning of a missing field, for messages: " (of each edge)", " (kg/m^3)".
   std::string meaning(const Json& property) const {
     const Json schema = resolved(property);
     for (const char* keyword : {"description", "unit"}) {

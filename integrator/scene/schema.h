@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The JSON Schema of scenes (schemas/scene.json), which is part of the program, and documents against it: known fields,
-// types, ranges and defaults are said there and nowhere else.
+// Validates documents against the JSON Schema of scenes (schemas/scene.json), which is part of the program. Only the
+// schema defines known fields, types, ranges and defaults.
 //
-// The subset of JSON Schema 2020-12 that it is written in
+// The schema uses this subset of JSON Schema 2020-12:
 //   $ref (into #/$defs), type, const, enum, minimum, maximum, exclusiveMinimum, exclusiveMaximum, minLength, items,
 //   minItems, maxItems, properties, required, additionalProperties (false), minProperties, maxProperties, default
-//   oneOf     its alternatives are objects; the first field that each requires, and the others do not have, tells which
-//             is meant
-//   $schema, $defs, title, description   say what they say
-//   unit      ours: what a number counts, for messages
+//   oneOf     its alternatives are objects; the first field that each requires, and the others do not have, decides
+//             which is meant
+//   $schema, $defs, title, description   as in the standard
+//   unit      our own keyword: the unit of a number, for messages
 //
-// What this does not do: it is no general validator. A keyword that is not in the list is a fault of the schema, and
-// thrown as std::logic_error.
+// It is not a general validator. Any other keyword is a fault of the schema, and throws std::logic_error.
 #pragma once
 
 #include <string>
@@ -23,7 +22,7 @@
 
 namespace noli::integrator {
 
-/// schemas/scene.json, as it was when the program was built.
+/// The text of schemas/scene.json when the program was built.
 std::string_view scene_schema_text();
 
 /// A field that a document leaves to its default.
@@ -33,14 +32,14 @@ struct DefaultTaken {
   friend bool operator==(const DefaultTaken&, const DefaultTaken&) = default;
 };
 
-/// What a document says, and what it does not.
+/// A document, and the fields that it leaves out.
 struct Validated {
-  Json document;                       ///< every field with a default is there
+  Json document;                       ///< with every field that has a default
   std::vector<DefaultTaken> defaults;  ///< scalars, and lists as a whole, in the order of the schema
 };
 
-/// Checks a document against a schema and fills in defaults. Throws InputError whose place is the JSON pointer, and
-/// which says what was expected; a field that is not known is answered with the nearest known one.
+/// Checks a document against a schema and fills in defaults. Throws an InputError with the JSON pointer as its place,
+/// and what was expected; for an unknown field it names the nearest known one.
 Validated validate(const Json& schema, const Json& document, const std::string& file);
 
 }  // namespace noli::integrator

@@ -26,8 +26,8 @@ double quotient_about(const Integer& num, const Integer& den) {
   return std::ldexp(a / b, static_cast<int>(std::max(e - f, -2000L)));
 }
 
-/// Whether p and q have a root in common between low and high. Preconditions: p has at most one there; what divides
-/// both is not zero at low and high.
+/// Whether p and q have a root in common between low and high. Preconditions: p has at most one root there; the
+/// greatest common divisor is not zero at low and high.
 bool share_root(const Polynomial& p, const Polynomial& q, const Dyadic& low, const Dyadic& high) {
   const bool same = &p == &q;
   if (!same && surely_coprime(p, q)) return false;
@@ -78,7 +78,7 @@ void AlgebraicNumber::set_interval(Dyadic low, Dyadic high) {
   high_ = std::move(high);
   const double a = floor_to_double(low_), b = ceil_to_double(high_);
   about_ = a + (b - a) / 2;
-  reach_ = b - a;  // more than half, as the middle is rounded
+  reach_ = b - a;  // not half of it, as the middle is rounded
 }
 
 void AlgebraicNumber::cut_at(const Dyadic& x) { keep_side(x, compare(x)); }
@@ -139,7 +139,7 @@ std::size_t AlgebraicNumber::width_bits() const {
 
 void AlgebraicNumber::refine(std::size_t bits) {
   if (sign_high_ == 0) return;
-  // On an interval of width w the chord is off by about w^2, unless the root is ill-conditioned.
+  // On an interval of width w, the zero of the chord is off by about w^2 unless the root is ill-conditioned.
   std::size_t have = width_bits(), log_pieces = std::max<std::size_t>(2, have - std::min<std::size_t>(have, 8));
   while (sign_high_ != 0 && (have = width_bits()) < bits) {
     log_pieces = std::min(log_pieces, bits - have + 2);
@@ -204,7 +204,7 @@ int AlgebraicNumber::sign_of(const Polynomial& q) {
 
 namespace {
 
-/// The order, if one number is dyadic or the intervals do not overlap.
+/// The order, if one number is dyadic or the intervals do not overlap; otherwise nothing.
 std::optional<std::strong_ordering> compare_intervals(const AlgebraicNumber& a, const AlgebraicNumber& b) {
   if (b.is_dyadic()) return a.compare(b.low()) <=> 0;
   if (a.is_dyadic()) return 0 <=> b.compare(a.low());

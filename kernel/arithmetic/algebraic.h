@@ -4,16 +4,15 @@
 //
 // Notation
 //   p                 a square-free integer polynomial
-//   [low, high]       dyadic: p has exactly one root in it, and the number is that root. Either p is not zero at low
-//                     and high, which then lie on different sides of the root, or low = high, the number is dyadic and
-//                     p is linear
+//   [low, high]       has dyadic ends; p has exactly one root in it, which is the number. Either p is not zero at low
+//                     and high, which lie on different sides of the root; or low = high, and p is linear
 //
 // Method: roots are separated by Descartes' rule on Bernstein coefficients with bisection (Collins and Akritas 1976;
 // Lane and Riesenfeld 1981), refined by quadratic interval refinement (Abbott 2014). Whether a polynomial is zero at a
 // number is decided by gcd, all other signs by refinement; double precision only proposes, or answers where its error
 // is bounded.
 //
-// What this does not do: no arithmetic on algebraic numbers, none outside [0, 1].
+// There is no arithmetic on these numbers; noli/cgal.h has it.
 #pragma once
 
 #include <compare>
@@ -47,15 +46,15 @@ class AlgebraicNumber {
   std::size_t width_bits() const;
   /// Makes high - low < 2^-bits.
   void refine(std::size_t bits);
-  /// Shrinks the interval to about 2^-45 of the number, if double precision finds the root; otherwise nothing.
+  /// Shrinks the interval to about 2^-45 if double precision finds the root; otherwise does nothing.
   void polish(double proposal);
 
-  /// The sign of q at this number. The first keeps the interval that it took to find out.
+  /// The sign of q at this number. The first overload keeps the interval that it refined.
   int sign_of(const Polynomial& q);
   int sign_of(const Polynomial& q) const { return AlgebraicNumber(*this).sign_of(q); }
   /// The sign of (this number - x).
   int compare(const Dyadic& x) const;
-  /// Replaces the interval by the part of it on the number's side of x; by x itself if it is the number.
+  /// Replaces the interval by its part on the number's side of x; by x itself if x is the number.
   void cut_at(const Dyadic& x);
   /// The largest double that is not greater than this number.
   double floor() const;
@@ -68,7 +67,7 @@ class AlgebraicNumber {
   void set_interval(Dyadic low, Dyadic high);
   /// cut_at, given the sign of (number - x).
   void keep_side(const Dyadic& x, int side);
-  /// One step; raises or lowers `log_pieces`, the binary logarithm of the number of pieces that are proposed.
+  /// One step of refinement. Raises or lowers `log_pieces`, the binary logarithm of the number of pieces tried.
   void refine_quadratically(std::size_t& log_pieces);
   bool approximate_sign(const Polynomial& q, int& sign) const;
   int sign_by_refinement(const Polynomial& q);
@@ -76,8 +75,8 @@ class AlgebraicNumber {
   std::shared_ptr<const Polynomial> p_;
   Dyadic low_, high_;
   int sign_high_ = 0;  ///< of p at high; 0 iff low = high
-  double about_ = 0;   ///< middle of the interval, about
-  double reach_ = 0;   ///< the interval lies within about +- reach
+  double about_ = 0;   ///< middle of the interval, rounded
+  double reach_ = 0;   ///< the interval lies within about_ +- reach_
 };
 
 /// The distinct roots of p in [0, 1], ascending. Precondition: p is not zero.

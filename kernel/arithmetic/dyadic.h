@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dyadic numbers m / 2^e: what doubles are, and what the ends of isolating intervals are.
+// Dyadic numbers m / 2^e, exact: doubles, and the ends of isolating intervals.
 #pragma once
 
 #include <compare>
@@ -35,8 +35,7 @@ Dyadic operator*(const Dyadic& a, const Dyadic& b);
 Dyadic ldexp(Dyadic x, int k);
 Dyadic middle(const Dyadic& a, const Dyadic& b);
 
-/// The largest double that is not greater, the smallest that is not less. -DBL_MAX, DBL_MAX and infinities where they
-/// must be.
+/// The largest double <= x, and the smallest double >= x; beyond the range of double +-DBL_MAX or an infinity.
 double floor_to_double(const Dyadic& x);
 double ceil_to_double(const Dyadic& x);
 

@@ -3,8 +3,7 @@
 // Integers of any size, as values: GMP's mpz_t with a destructor and plain operators, so that the templates of
 // formula.h take them like any other number. Temporaries are reused, as most of the time goes into allocation.
 //
-// What this does not do: division other than exact, text. When memory runs out GMP ends the program, unless told
-// otherwise by mp_set_memory_functions.
+// When memory runs out, GMP ends the program unless mp_set_memory_functions says otherwise.
 #pragma once
 
 #include <gmp.h>

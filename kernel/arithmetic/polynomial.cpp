@@ -148,7 +148,7 @@ Integer Polynomial::coefficient_sum() const {
 }
 
 Polynomial from_form(std::vector<Integer> form) {
-  // t^i (1 - t)^k contributes to t^i ... t^(i + k), k = n - i. From above, so that what is read is not yet changed.
+  // t^i (1 - t)^k contributes to t^i ... t^(i + k), k = n - i. Goes down, so that it reads only unchanged entries.
   for (std::size_t i = form.size(); i-- > 0;) {
     const std::size_t k = form.size() - 1 - i;
     Integer term = form[i];

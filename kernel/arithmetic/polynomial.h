@@ -7,8 +7,7 @@
 //   content           the greatest common divisor of the coefficients; a polynomial of content 1 is primitive
 //   form              the homogeneous form of formula.h on s + t = 1
 //
-// What this does not do: no polynomials of high degree (everything is quadratic in n), no roots
-// (kernel/arithmetic/algebraic.h).
+// Everything is quadratic in n, so it is not meant for high degrees. Roots are in kernel/arithmetic/algebraic.h.
 #pragma once
 
 #include <cstddef>
@@ -68,18 +67,18 @@ Polynomial from_form(std::vector<Integer> form);
 /// The number of sign changes in a sequence; zeros are skipped.
 int sign_changes(const std::vector<Integer>& numbers);
 
-/// True only if a and b have no common root, real or complex; false means "not known". Much cheaper than gcd: works
-/// modulo a prime. Precondition: neither is zero.
+/// True only if a and b have no common root, real or complex; false means "not known". Works modulo a prime, which is
+/// much cheaper than gcd. Precondition: neither is zero.
 bool surely_coprime(const Polynomial& a, const Polynomial& b);
 
 /// Primitive greatest common divisor, by the primitive remainder sequence; that of 0 and 0 is 0.
 Polynomial gcd(const Polynomial& a, const Polynomial& b);
 
-/// a / b. Precondition: it has integer coefficients, as it has by Gauss's lemma where b is primitive and divides a over
-/// the rationals; b is not zero.
+/// a / b. Preconditions: b is not zero, and the quotient has integer coefficients. By Gauss's lemma it has if b is
+/// primitive and divides a over the rationals.
 Polynomial quotient(Polynomial a, const Polynomial& b);
 
-/// The polynomial with the same roots, all simple; only a constant factor differs if they were simple already.
+/// A polynomial with the same roots, all simple. If they were simple already, it differs from p by a constant factor.
 /// Precondition: p is not zero.
 Polynomial square_free_part(const Polynomial& p);
 

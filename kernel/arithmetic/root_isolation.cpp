@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Roots of an integer polynomial in [0, 1].
+// Isolates the roots of an integer polynomial in [0, 1].
 //
 // Notation: b[i] are the Bernstein coefficients of p on a piece [m / 2^k, (m + 1) / 2^k], times a positive constant
-// that makes them integers. The number of their sign changes bounds the number of roots inside and has its parity; 0
-// and 1 are exact.
+// that makes them integers. The number of their sign changes bounds the number of roots inside and has the same parity;
+// if it is 0 or 1, it is the number of roots.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -33,7 +33,7 @@ Bernstein bernstein_of(const Polynomial& p) {
     mpz_mul_ui(weight.get(), weight.get(), j + 1);
     if (j < n) mpz_divexact_ui(weight.get(), weight.get(), n - j);
   }
-  // Sums with binomial weights are differences undone.
+  // Sums with binomial weights are the inverse of differences.
   for (std::size_t level = 1; level <= n; ++level) {
     for (std::size_t i = n; i >= level; --i) b[i] += b[i - 1];
   }

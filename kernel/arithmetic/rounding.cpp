@@ -39,7 +39,7 @@ double root(double a) { return opaque(std::sqrt(opaque(a))); }
 constexpr double ulp_of_one = 0x1p-52;
 
 bool nearest_is_double() {
-  // With the 64 bits of an x87 register the first would keep the small term, then round up: twice rounded.
+  // In the 64 bits of an x87 register, the first would keep the small term and then round up: double rounding.
   const bool no_excess = sum(1, 0x1.002p-53) == 1 + ulp_of_one && sum(1, 0x1p-53) == 1 &&
                          sum(1 + ulp_of_one, 0x1p-53) == 1 + 2 * ulp_of_one && difference(1, 0x1p-54) == 1;
   return no_excess && ratio(1, 3) == 0x1.5555555555555p-2 && product(0x1.0000001p0, 0x1.0000001p0) == 0x1.0000002p0 &&
@@ -48,10 +48,10 @@ bool nearest_is_double() {
 
 bool nothing_is_contracted() {
   const double a = opaque(1 + 0x1p-30), b = opaque(1 - 0x1p-30), c = opaque(-1);
-  return opaque(a * b + c) == 0;  // fused it would be -2^-60
+  return opaque(a * b + c) == 0;  // a fused operation gives -2^-60
 }
 
-/// By their bits: a processor that takes subnormals for zero does so in comparisons too.
+/// Compares bits: a processor that treats subnormals as zero does so in comparisons too.
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 bool subnormals_are_kept() {

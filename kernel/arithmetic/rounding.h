@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Does this program, on this machine, round as IEEE 754 says? Asked once, at run time, in release builds too: a
-// compiler flag, an emulator or a library that changed the control word can break what the error bounds of the filters
-// rest on.
+// Tests whether this program, on this machine, rounds as IEEE 754 requires. It runs once, in release builds too. The
+// error bounds of the filters need it, and a compiler flag, an emulator or a changed control word can break it.
 //
-// What this does not do: it samples. A processor that fails on other operands than these is not found out.
+// It samples: it does not detect a processor that fails on other operands than these.
 #pragma once
 
 #include <string_view>
@@ -14,7 +13,7 @@ namespace noli {
 struct RoundingReport {
   /// Round to nearest in double: no excess precision, no contraction of a * b + c, subnormals kept.
   bool nearest_ok = false;
-  /// Switching to upward rounding takes effect for +, -, *, / and sqrt, and CGAL::Interval_nt encloses. Not so under
+  /// Switching to upward rounding takes effect for +, -, *, / and sqrt, and CGAL::Interval_nt encloses. False under
   /// Valgrind.
   bool directed_ok = false;
 
@@ -24,7 +23,7 @@ struct RoundingReport {
   std::string_view text() const;
 };
 
-/// The result of the test, made at the first call. Leaves the rounding mode as it was. Thread-safe.
+/// The result of the test, which runs at the first call. Leaves the rounding mode as it was. Thread-safe.
 const RoundingReport& rounding_self_test();
 
 }  // namespace noli

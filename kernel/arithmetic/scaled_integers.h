@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The coordinates of a query as integers, of fixed width or of any: all multiplied by one power of two. Exact; contact
-// and its time do not change.
+// The coordinates of a query as integers, of fixed or any width: all multiplied by one power of two. Exact; contact and
+// its time do not change.
 //
-// What this does not do: it rounds nothing, so coordinates of 1e300 next to some of 1e-300 make integers of 2000 bits.
+// Nothing is rounded, so coordinates of 1e300 next to 1e-300 make integers of 2000 bits.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct ExponentRange {
   void add(const std::array<double, N>& x) {
     for (const double c : x) add(c);
   }
-  /// Bits of the largest integer, once all are multiplied by 2^-low.
+  /// Bits of the largest integer after all are multiplied by 2^-low.
   int bits() const { return high > low ? high - low : 0; }
 };
 

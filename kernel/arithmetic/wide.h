@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Signed integers of a fixed number of 64-bit limbs, without allocation. Products widen, so they are exact; sums keep
-// the width of the wider operand, and it is the caller's business to leave enough bits free (contact.cpp counts them).
+// Signed integers of a fixed number of 64-bit limbs, without allocation. Products widen, so they are exact. Sums keep
+// the width of the wider operand, and the caller must leave enough bits free (contact.cpp counts them).
 //
-// What this does not do: no division, no text, no overflow checks at run time.
+// Overflow is not checked at run time.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ class Wide {
 
   constexpr int sign() const { return is_negative() ? -1 : (is_zero() ? 0 : 1); }
 
-  /// Nearly the value: relative error below 2^-51; 0 only for 0. Infinite beyond the range of double.
+  /// The value with a relative error below 2^-51; 0 only for 0. Infinite beyond the range of double.
   double approximate() const {
     const Wide magnitude = is_negative() ? -*this : *this;
     double value = 0;
@@ -104,7 +104,7 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
     }
     result.limb(i + M) = carry;
   }
-  // What was multiplied are the unsigned readings; a negative a was read as a + 2^(64 N).
+  // The product so far is unsigned: it read a negative a as a + 2^(64 N).
   const auto subtract_high = [&result](const auto& x, std::size_t from, std::size_t count) {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -118,7 +118,7 @@ constexpr Wide<N + M> operator*(const Wide<N>& a, const Wide<M>& b) {
   return result;
 }
 
-/// Two limbs are what the machine multiplies by itself.
+/// The machine has an instruction for this product.
 constexpr Wide<2> operator*(const Wide<1>& a, const Wide<1>& b) {
   const SignedDoubleLimb product =
       static_cast<SignedDoubleLimb>(static_cast<std::int64_t>(a.limb(0))) * static_cast<std::int64_t>(b.limb(0));

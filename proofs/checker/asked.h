@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is asked of a proof, and whether its claim, or its witness, answers that: proofs/FORMAT.md, section 6.
+// Compares the claim of a proof, or a witness, with the claim that is asked for: proofs/FORMAT.md, section 6.
 //
 // Notation
 //   source    as in CLAM: 0 frames in motion, 1 frames at rest, 2 a run
@@ -13,7 +13,7 @@ namespace noli::checker {
 
 inline constexpr std::array<const char*, 3> motions = {"linear", "rest", "run"};
 
-/// Words that both checkers write alike.
+/// Both checkers write these texts alike.
 inline std::string text_of(double number) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.17g", number + 0.0);
@@ -32,7 +32,7 @@ inline std::string text_of(const Sha256::Digest& hash) {
   return text;
 }
 
-/// Whether the claim is about two cells with vertices u != v, one in each, or, if `strict`, one cell with both.
+/// Whether the claim compares two cells with vertices u != v, one in each, or, if `strict`, one cell with both.
 inline bool compares_any(const Claim& claim, bool strict) {
   struct Label {
     std::size_t cells = 0;
@@ -65,7 +65,7 @@ struct Shown {
   bool one_cell = false, of_points = false, near = false, flat = false;
   LabelPair labels{};
 
-  /// On what it rests that is not asked by default.
+  /// Assumptions of the witness that go beyond what is asked for by default.
   std::string rests_on(const Claim& claim) const {
     std::string text;
     if (near) text += "; least distance " + text_of(claim.eta) + ", ring " + std::to_string(claim.ring);
@@ -76,11 +76,11 @@ struct Shown {
   }
 };
 
-/// The claim that is asked. Fields that are not asked by name are as section 6 says.
+/// The claim that is asked for. Section 6 has the defaults of the fields that are not named.
 class Asked {
  public:
   Asked() = default;
-  /// Fields as they follow --require.
+  /// Takes fields as they follow --require.
   explicit Asked(const std::vector<std::string>& fields) {
     for (const std::string& field : fields) take(field);
     const bool any_excluded = excluded_ && !excluded_->empty();
@@ -89,13 +89,13 @@ class Asked {
     require_word(eta_ > 0 || ring_ == 1, "ring", "says who may be nearer than a distance: expected distance=ETA too");
   }
 
-  /// Whether a number of steps is asked by name, and so many of the claim's, at least one, are enough.
+  /// Whether a number of steps is asked for by name, and the first `steps` of the claim, at least one, are enough.
   bool enough_steps(const Claim& claim, std::uint64_t steps) const {
     const std::uint64_t ends = claim.source == 0 && source(claim) == 1 ? 1 : 0;  // frame k ends step k - 1
     return steps_ && steps > 0 && steps + ends >= *steps_;
   }
 
-  /// Rejects a claim that is weaker. `flat`: each of its steps is.
+  /// Rejects a claim that is weaker than asked. `flat`: each of its steps is flat.
   void require_claimed(const Claim& claim, bool flat) const {
     const Says proof{"the proof"};
     const std::uint32_t motion = source(claim), space = dimension(claim);
@@ -118,12 +118,12 @@ class Asked {
     const char* const would_do = claim.strict && compares_any(claim, true) ? "strict=1" : "empty=1";
     proof.require(empty_ || compares_any(claim, strict_), "empty", "1", "0", would_do);
   }
-  /// Rejects a claim of too few steps. `more`: the trajectory goes on.
+  /// Rejects a claim of too few steps. `more`: the trajectory has more.
   void require_steps(const Claim& claim, std::uint64_t steps, bool more) const {
     const std::string wanted = steps_ ? std::to_string(*steps_) : "all of them, and the trajectory goes on";
     Says{"the proof"}.require(steps_ ? enough_steps(claim, steps) : !more, "steps", std::to_string(steps), wanted);
   }
-  /// Rejects a witness that refutes only more than what is asked.
+  /// Rejects a witness that refutes only a stronger claim than the one asked for.
   void require_refuted(const Claim& claim, const Shown& shown) const {
     const Says witness{"the witness in step " + std::to_string(shown.step + 1)};
     const std::uint32_t motion = source(claim), space = dimension(claim);
@@ -144,7 +144,7 @@ class Asked {
   }
 
  private:
-  /// Who says what is compared with what is asked.
+  /// The part of the proof that is compared with what is asked for, for messages.
   struct Says {
     std::string who;
 
@@ -209,7 +209,7 @@ class Asked {
       cells_ = value;
     }
   }
-  /// Digits come first, so there is no sign.
+  /// A number that begins with a digit, so without a sign.
   template <class T>
   static T number(const std::string& word, const std::string& text, T least, T most = std::numeric_limits<T>::max()) {
     T value{};
@@ -223,7 +223,7 @@ class Asked {
   static bool flag(const std::string& word, const std::string& text) {
     return number(word, text, std::uint32_t{0}, std::uint32_t{1}) == 1;
   }
-  /// A-B,C-D: A <= B, ascending strictly.
+  /// Pairs as in A-B,C-D, with A <= B, strictly ascending.
   static std::set<LabelPair> pairs(const std::string& word, const std::string& text) {
     std::set<LabelPair> result;
     for (std::size_t at = 0; !text.empty() && at <= text.size();) {

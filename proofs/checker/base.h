@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What everything here stands on: how a check ends early, files, and the bytes and numbers in them.
+// The basis of the checker: how a check ends early, files, and the bytes and numbers in them.
 #pragma once
 
 #include <gmpxx.h>
@@ -31,7 +31,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as t
 
 __extension__ using Wide = __int128;
 
-/// The check ends: where in which file, and why.
+/// The check ends early: where in which file, and why.
 struct Rejected {
   std::string where, why;
 };
@@ -40,14 +40,14 @@ inline void require(bool condition, const std::string& where, const char* why) {
   if (!condition) throw Rejected{where, why};
 }
 
-/// A file, or with the name - the standard input, read once from its beginning to its end.
+/// A file, or the standard input if its name is -, read once from beginning to end.
 class Input {
  public:
   explicit Input(const std::string& name)
       : name_(name), file_(name == "-" ? stdin : std::fopen(name.c_str(), "rb"), std::fclose) {
     checker::require(file_ != nullptr, name, "cannot be opened");
   }
-  /// So many bytes, or all up to the end. No length is believed: memory grows with what has come.
+  /// Reads this many bytes, or all up to the end. Lengths are not trusted: memory grows with the bytes that were read.
   std::string read(std::uint64_t bytes) {
     std::string result;
     result.reserve(std::min<std::uint64_t>(bytes, 1 << 26));
@@ -61,7 +61,7 @@ class Input {
     checker::require(std::ferror(file_.get()) == 0, name_, "cannot be read");
     return result;
   }
-  /// Whether a byte is left. It is not read.
+  /// Whether a byte is left. Does not consume it.
   bool more() { return std::ungetc(std::fgetc(file_.get()), file_.get()) != EOF; }
 
  private:
@@ -69,7 +69,7 @@ class Input {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
-/// Bytes that are taken one after another, or line by line. What is wrong is said with its place.
+/// Takes bytes one after another, or line by line. Errors name the place.
 class Reader {
  public:
   Reader(std::string bytes, std::string file, std::uint64_t offset = 0)
@@ -84,7 +84,7 @@ class Reader {
   }
   std::string_view all() const { return bytes_; }
   std::size_t left() const { return bytes_.size() - at_; }
-  /// That many things, of so many bytes each, are left.
+  /// Requires that at least `count` items of `size` bytes are left.
   void need(std::uint64_t count, std::uint64_t size) const {
     require(count <= left() / size, "more is announced here than is left");
   }
@@ -126,7 +126,7 @@ class Reader {
     const unsigned long s = shift();
     return sint() << s;
   }
-  /// The next line of a text, without its end; none where all has been read.
+  /// The next line of a text, without its end; nothing at the end of the text.
   std::optional<std::string_view> line() {
     if (left() == 0) return std::nullopt;
     ++line_;
@@ -135,7 +135,7 @@ class Reader {
     if (line.ends_with('\r')) line.remove_suffix(1);
     return line;
   }
-  /// What follows the lines is bytes.
+  /// Bytes follow the lines.
   void no_more_lines() { line_ = 0; }
   /// A word as a number of this type, rounded correctly.
   template <class T>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Block files (trajectory/FORMAT.md), and the two checksums that are in them.
+// Reads block files (trajectory/FORMAT.md), and computes the two checksums in them.
 #pragma once
 
 #ifdef __x86_64__
@@ -30,9 +30,9 @@ __attribute__((target("sse4.2"))) inline std::uint64_t crc32c_by_instructions(st
 }
 #endif
 
-/// CRC-32C of some bytes and of those before them; eight at a time.
+/// CRC-32C of some bytes and of those before them, computed eight bytes at a time.
 inline std::uint32_t crc32c(std::string_view bytes, std::uint32_t before = 0) {
-  static const auto table = [] {  // [k][i]: of byte i and k bytes of 0 behind it
+  static const auto table = [] {  // [k][i]: of byte i followed by k bytes of 0
     std::array<std::array<std::uint32_t, 256>, 8> t{};
     for (std::uint32_t i = 0; i < 8 * 256; ++i) {
       std::uint32_t c = i < 256 ? i : t[i / 256 - 1][i % 256];
@@ -119,8 +119,8 @@ class Sha256 {
   }
 
 #ifdef __x86_64__
-  /// The same by the processor's instructions, four rounds at a time, which want the words a b e f and c d g h
-  /// together, the first of each highest.
+  /// The same by the processor's instructions, four rounds at a time. They need the words a b e f and c d g h together,
+  /// the first of each highest.
   struct Halves {
     __m128i first, second;
   };
@@ -172,8 +172,8 @@ class BlockFile {
     group_.add(head);
   }
 
-  /// The next block of the open group, but for CMIT; none at its end, and none at the end of the file, where ended() is
-  /// true. What is behind the last commit is rejected, so blocks count only when their group has ended.
+  /// The next block of the open group, except CMIT; nothing at its end, and at the end of the file, where ended() is
+  /// true. Anything after the last commit is rejected, so blocks count only when their group has ended.
   std::optional<Block> next() {
     block_at_ = at_;
     const std::string head = input_.read(12);
@@ -193,7 +193,7 @@ class BlockFile {
     ++blocks_;
     return block;
   }
-  /// The payload of a block, which has to be of that kind.
+  /// The payload of a block, which must have this kind.
   Reader as(const std::string& kind, std::optional<Block> block) const {
     require(block && block->kind == kind, block_at_, "expected a block " + kind);
     return std::move(block->data);
@@ -201,9 +201,9 @@ class BlockFile {
   Reader expect(const std::string& kind) { return as(kind, next()); }
   void expect_commit() { require(!next(), block_at_, "expected a commit"); }
   bool ended() const { return ended_; }
-  /// Whether something follows, which is not looked at.
+  /// Whether something follows, which is not read.
   bool more() { return input_.more(); }
-  /// Of the last group that was committed.
+  /// The hash of the last committed group.
   const Sha256::Digest& group_hash() const { return last_; }
 
  private:

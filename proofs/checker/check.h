@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A proof, read from its beginning to its end beside the trajectory that it is about: proofs/FORMAT.md, section 2.
+// Checks a proof while reading it and its trajectory from beginning to end: proofs/FORMAT.md, section 2.
 #pragma once
 
 #include "obligations.h"
@@ -43,8 +43,8 @@ class Check {
     c.require(cells_hash() == claim_.hash, "the claim is about other cells than those of the trajectory");
   }
 
-  /// Checks step after step. Returns the words of the first witness that refutes the asked claim. Without such a
-  /// witness the claim of the file holds, and is at least as strong as the asked one.
+  /// Checks step after step. Returns the text of the first witness that refutes the claim that is asked for. Without
+  /// such a witness the claim of the file holds, and is at least as strong as the one asked for.
   std::optional<std::string> go() {
     for (std::uint64_t read = 0;; ++read) {
       auto block = proof_.next();
@@ -64,7 +64,7 @@ class Check {
   }
 
   const Claim& claim() const { return claim_; }
-  /// What makes the accepted claim weaker than the one that is asked by default, for the line of the verdict.
+  /// What makes the accepted claim weaker than the one asked for by default, for the line of the verdict.
   std::string weaker() const {
     std::string text;
     if (claim_.source == 1) text += "; frames at rest";
@@ -172,7 +172,7 @@ class Check {
   }
 
   bool witnessed() const { return refuted_ || in_vain_; }
-  /// All vertices have one z where the step begins, and one where it ends.
+  /// All vertices have the same z at the beginning of the step, and the same z at its end.
   bool is_flat() const {
     if (run()) return claim_.dimension == 2;
     for (std::size_t i = 0; i < motion_.x.size(); ++i) {
@@ -221,10 +221,10 @@ class Check {
   std::uint64_t steps_ = 0, proved_ = 0;  ///< seen, and proved before the first witness
   std::array<double, 2> times_{};
   double proved_until_ = 0;
-  bool flat_ = true;          ///< the steps that are proved
-  bool first_steps_ = false;  ///< the trajectory goes on behind them
+  bool flat_ = true;          ///< the proved steps are flat
+  bool first_steps_ = false;  ///< the trajectory goes on after them
   std::optional<std::string> refuted_;
-  std::optional<Rejected> in_vain_;  ///< why the first witness does not count that refutes another claim alone
+  std::optional<Rejected> in_vain_;  ///< why the first witness that refutes only another claim does not count
 };
 
 }  // namespace noli::checker

@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two quick ways to see that a direction separates two groups. In integers of 64 bits: boxes around each vertex at both
-// ends of a piece, between which its motion is. If they are apart, so are the vertices. If not, as where cells tremble
-// by more than what is between them, in binary64: at each breakpoint. If that is too close, separation.h decides.
+// Two quick tests whether a direction separates two groups. The first, in integers of 64 bits, compares boxes around
+// each vertex at both ends of a piece, which enclose its motion in between. If boxes overlap, as when cells tremble by
+// more than their distance, the second compares in binary64 at each breakpoint. Close cases are left to separation.h.
 //
 // Notation, and why boxes are right
 //   unit    a power of two of which all positions and the least distance are less than 2^46
-//   x'      a position in units, cut to an integer: less than 1 off
-//   t'      a time from T0 on, the step being 2^49 to 2^50 long, cut to an integer. The difference from T0 is rounded
-//           as well, so t' is less than 2 off, and an end of a piece, k/d of the step's, less than 3
-//   s, e    breakpoints around the piece: the first and last of all, or such that are `blur` away from it
+//   x'      a position in units, truncated to an integer: its error is less than 1
+//   t'      a time from T0 on, truncated to an integer, the step being 2^49 to 2^50 long. The difference from T0 is
+//           rounded too, so the error of t' is below 2, and that of an end of a piece, k/d of the step's, below 3
+//   s, e    breakpoints around the piece: the first and last of all, or ones that are `blur` away from it
 //   chord   the line C(t) = x'(s) + way (t - t'(s)) / span; way = x'(e) - x'(s), span = t'(e) - t'(s), at least 16.
-//           It is taken at times up to 5 beyond s and e, so within 1.4 |way| of x'(s). Its differences are exact in
-//           binary64, a quotient and a product are rounded and then cut: less than 2 off
-//   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was made 16, e may be
-//           18 |way| / span away, with what its time is off
+//           It is evaluated up to 5 beyond s and e, so within 1.4 |way| of x'(s). Its differences are exact in
+//           binary64; a quotient and a product are rounded and then truncated: its error is less than 2
+//   stray   of a breakpoint between s and e, x' less the chord. Those of s and e are 0; if span was raised to 16, e may
+//           be 18 |way| / span away, including the error of its time
 //   slack   of a breakpoint 1 for x', 2 for the chord, and 18 |way| / span for its time; of an end of the piece 2 and
-//           3 |way| / span: less than 6 + 32 |way| / span. Chord and motion are linear between breakpoints, so a
-//           vertex is always within the least and the greatest stray (0 is one), and the slack, from the chord
-//   box     the chord at an end of the piece, with stray and slack: below 2^50. So n.x is below 2^61 where components
-//           of n are up to 512, and below 2^92 where they are below 2^40
-//   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound of what S asks for.
-//           2^20 gap > (units of the least distance, rounded up) root, root >= 2^20 |n|, is what S asks for
+//           3 |way| / span: less than 6 + 32 |way| / span. Chord and motion are linear between breakpoints. So a vertex
+//           stays between the least and the greatest stray (0 is one) from the chord, up to the slack
+//   box     the chord at an end of the piece, with stray and slack: below 2^50. So n.x is below 2^61 if components of n
+//           are at most 512, and below 2^92 if they are below 2^40
+//   gap     the least n.u less the greatest n.w of the boxes, linear from end to end: a lower bound for condition S.
+//           S holds if 2^20 gap > (units of the least distance, rounded up) root, with root >= 2^20 |n|
 //
-// Why breakpoints are, with u = 2^-53, M the greatest coordinate or the least distance, and N = |nx| + |ny| + |nz|.
-// As M is from 2^-900 to 2^900, nothing overflows, and what underflows is far below u M
-//   time    of a breakpoint exact. An end of a piece is less than 8 u of the greatest time off, and is moved outward by
-//           16 u of that, but not out of the step. Who is apart for longer is apart: gaps are concave between
+// Why the test at breakpoints is right, with u = 2^-53, M the greatest coordinate or the least distance, and N = |nx| +
+// |ny| + |nz|. As M is from 2^-900 to 2^900, nothing overflows, and underflow is far below u M
+//   time    of a breakpoint exact. An end of a piece has an error below 8 u of the greatest time, and is moved outward
+//           by 16 u of that, but not out of the step: being apart for longer is enough. Gaps are concave between
 //           breakpoints, so those at breakpoints and at both ends are enough for any interval
-//   value   n.u = f + (g - f) r between two breakpoints, n.x being f and g there: each less than 4 u N M off, their
-//           difference 10 u N M, and r less than 4 u; it is from 0 to 1, as rounding keeps order. So a value is less
-//           than 32 u N M off
-//   margin  128 u N M: for two values, their difference, and the rounding of the distance and of this itself
+//   value   n.u = f + (g - f) r between two breakpoints, n.x being f and g there. Errors: f and g less than 4 u N M,
+//           their difference 10 u N M, r less than 4 u; r is from 0 to 1, as rounding keeps order. So the error of a
+//           value is less than 32 u N M
+//   margin  128 u N M: for two values, their difference, and the rounding of the distance and of the margin itself
 #pragma once
 
 #include "separation.h"
@@ -65,7 +65,7 @@ class Enclosures {
     for (std::size_t v = 0; v < whole_step_.size(); ++v) whole_step_[v] = box(v, {});
   }
 
-  /// Whether a direction surely separates two groups that have vertices, by the least distance or just so.
+  /// Whether a direction surely separates two nonempty groups; if `distance`, by more than the least distance.
   bool apart(const Point& n, const Piece& piece, Vertices x, Vertices y, bool distance) {
     const std::int64_t most = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
     const bool usable = usable_ && piece.halvings <= 30 && most < limit;
@@ -128,7 +128,7 @@ class Enclosures {
     times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
     return std::ranges::all_of(times_, [&](double c) { return gap(m, c, x.size()) > asked; });
   }
-  /// At c, which is not before that of the last call. The ends of segments, the first of which are those of x, follow.
+  /// The gap at c, which must not be before that of the last call. Moves segments_ on to c; those of x come first.
   double gap(const Position& m, double c, std::size_t of_x) {
     double low = INFINITY, high = -INFINITY;
     for (std::size_t j = 0; j < segments_.size(); ++j) {
@@ -146,7 +146,7 @@ class Enclosures {
   }
   static double dot(const Position& m, const Position& x) { return m[0] * x[0] + m[1] * x[1] + m[2] * x[2]; }
 
-  /// A few boxes are remembered.
+  /// The box of a vertex over a piece. Some boxes are cached.
   const Box& known(std::uint32_t v, const Piece& piece) {
     Known& known = known_[(v + 40503 * piece.id) % known_.size()];
     if (known.piece != piece.id || known.v != v) known = {piece.id, v, box(v, piece)};
@@ -205,8 +205,8 @@ class Enclosures {
   std::int64_t duration_ = 1, eta_ = 0;
   std::vector<Box> whole_step_;  ///< by vertex
   std::vector<Known> known_;
-  std::vector<double> times_;            ///< of the last call, as are
-  std::vector<std::uint64_t> segments_;  ///< which of each vertex's, by its end
+  std::vector<double> times_;            ///< of the last call
+  std::vector<std::uint64_t> segments_;  ///< of the last call: for each vertex the end of its current segment
 };
 
 }  // namespace noli::checker

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames: PLY and OBJ, as proofs/FORMAT.md, section 9, says.
+// Reads frames in PLY and OBJ, as defined in proofs/FORMAT.md, section 9.
 #pragma once
 
 #include "base.h"
@@ -9,7 +9,7 @@ namespace noli::checker {
 
 using Position = std::array<double, 3>;
 
-/// A face, a loose edge or a loose point; vertices beyond `size` are 0.
+/// A face, a loose edge or a loose point; entries of v from `size` on are 0.
 struct Cell {
   std::array<std::uint32_t, 3> v{};
   std::uint8_t size = 0;
@@ -61,7 +61,7 @@ inline std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 inline Frame read_obj(Reader text) {
-  static const std::map<std::string_view, std::size_t> shapes = {{"p", 1}, {"l", 2}, {"f", 3}};  // least numbers
+  static const std::map<std::string_view, std::size_t> shapes = {{"p", 1}, {"l", 2}, {"f", 3}};  // least corners
   static constexpr std::string_view skipped =
       "  vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj ";
   Frame frame;
@@ -128,8 +128,8 @@ class PlyReader {
     long double (PlyReader::*read)();  ///< the next number
   };
   struct Property {
-    const Type *count, *type;  ///< no count: it is no list
-    std::size_t use;           ///< which of `uses`; their number if none
+    const Type *count, *type;  ///< no count: not a list
+    std::size_t use;           ///< index in `uses`; their number if it is not used
   };
   struct Element {
     std::string name;
@@ -217,7 +217,7 @@ class PlyReader {
       const long double n = p.count == nullptr ? 1 : (this->*p.count->read)();
       text_.require(n >= 0, "a list has an impossible length");
       for (long double i = 0; i < n; ++i) {
-        // What is skipped need not be a number.
+        // A value that is skipped need not be a number.
         const long double value = p.use == uses.size() && ascii_ ? (word(), 0) : (this->*p.type->read)();
         if (p.use < x.size()) x[p.use] = value;
         if (p.use == 5 || p.use == 6) corners.push_back(vertex(value));
@@ -253,7 +253,7 @@ class PlyReader {
 
   Reader text_;
   bool ascii_ = false, big_ = false;
-  std::set<std::string, std::less<>> names_;  ///< elements, and element and property
+  std::set<std::string, std::less<>> names_;  ///< of elements, and of elements with a property
   std::vector<Element> elements_;
   std::vector<std::string_view> words_;
   std::size_t word_ = 0;

@@ -4,9 +4,9 @@
 // noli_check [--require FIELD[=VALUE]]... PROOF TRAJECTORY
 // noli_check --version
 //
-// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). What may be asked, what it says, and
-// its exit codes are in sections 6 and 7 there. A proof, or the block file of a run, that is named - is read from the
-// standard input.
+// Checks a proof that nothing touches, or that something does (proofs/FORMAT.md). Sections 6 and 7 there define the
+// fields of --require, the output and the exit codes. The name - stands for the standard input, for the proof or the
+// block file of a run.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -20,7 +20,7 @@ namespace noli::checker {
 
 extern const char* const version;  // version.cpp
 
-/// For programs.
+/// Prints the claim for programs.
 static void print_fields(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
   std::printf("claim motion=%s dimension=%u steps=%llu strict=%d points=%d distance=%s ring=%u merged=%u",
               motions[claim.source], claim.dimension, static_cast<unsigned long long>(steps), claim.strict ? 1 : 0,
@@ -30,7 +30,7 @@ static void print_fields(const Claim& claim, std::uint64_t steps, const std::arr
               text_of(times[1]).c_str());
 }
 
-/// For people.
+/// Prints the claim for people.
 static void print_claim(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
   std::printf("%llu steps of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n",
@@ -71,7 +71,7 @@ static int run(std::vector<std::string> words) {
 
 }  // namespace noli::checker
 
-/// Says nothing of the proof. Nothing is allocated any more.
+/// Gives no verdict on the proof, and allocates nothing.
 [[noreturn]] static void end_without_memory() {
   constexpr std::string_view words = "failed: out of memory; nothing is said of the proof\n";
   [[maybe_unused]] const ssize_t written = ::write(STDOUT_FILENO, words.data(), words.size());
@@ -83,7 +83,7 @@ static void* or_end(void* memory) {
   return memory;
 }
 
-/// GMP would end with a signal.
+/// Without this, GMP would abort the program when memory runs out.
 static void watch_memory_of_gmp() {
   mp_set_memory_functions([](std::size_t size) { return or_end(std::malloc(size)); },
                           [](void* old, std::size_t, std::size_t size) { return or_end(std::realloc(old, size)); },

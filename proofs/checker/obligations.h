@@ -17,22 +17,22 @@ using Vertices = std::span<const std::uint32_t>;
 class Tree {
  public:
   struct Node {
-    std::uint32_t right = 0;             ///< a leaf has none, 0
+    std::uint32_t right = 0;             ///< 0 for a leaf
     std::uint32_t count = 0;             ///< of its vertices; 0 if it has more than `few`
     std::uint64_t first = 0;             ///< where they begin
-    std::optional<std::uint32_t> label;  ///< that all cells below have, if they have one
+    std::optional<std::uint32_t> label;  ///< of all cells below, if it is the same
   };
 
   Tree(Reader c, const std::vector<Cell>& cells) : cells_(cells), seen_(cells.size(), false) {
     nodes_.reserve(2 * cells.size());
-    vertices_.reserve(24 * cells.size());  // more than it takes if it is balanced; what is not used is not touched
+    vertices_.reserve(24 * cells.size());  // more than a balanced tree needs; unused memory is never touched
     add(c, 0);
     c.end();
     c.require(nodes_.size() + 1 == 2 * cells.size(), "the tree has not all cells");
   }
 
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
-  /// Those of a large node are not kept, or memory would grow with the depth: they are gathered in `room`.
+  /// Vertices of large nodes are not stored, as memory would grow with the depth; they are collected in `room`.
   Vertices vertices(std::uint32_t i, std::vector<std::uint32_t>& room) const {
     if (nodes_[i].count > 0) return kept(i);
     gather(i, room);
@@ -51,7 +51,7 @@ class Tree {
     gather(i + 1, all);
     gather(nodes_[i].right, all);
   }
-  /// Reads the node that is next, and returns its number.
+  /// Reads the next node, and returns its number.
   std::uint32_t add(Reader& c, int depth) {
     const std::uint64_t code = c.uint();
     const auto i = static_cast<std::uint32_t>(nodes_.size());
@@ -93,7 +93,7 @@ struct Group {
 struct Obligation {
   Group x, y;
   bool self = false, distance = false;
-  std::uint32_t piece = 0;  ///< its number; from the bottom of the stack to its top these numbers do not fall
+  std::uint32_t piece = 0;  ///< its number; these numbers do not decrease from the bottom of the stack to its top
 };
 
 class Obligations {
@@ -153,13 +153,13 @@ class Obligations {
     direction(top, n, c);
   }
 
-  /// The new top first.
+  /// Pushes obligations; the first one becomes the top.
   void push(std::initializer_list<Obligation> parts) {
     stack_.insert(stack_.end(), std::rbegin(parts), std::rend(parts));
   }
   const Tree::Node& node(const Group& g) const { return tree_.node(g.node); }
   bool leaf(const Group& g) const { return node(g).right == 0; }
-  /// What is left of a leaf is put into `room`.
+  /// The vertices of a group; those of a leaf with dropped ones are put into `room`.
   using Room = std::vector<std::uint32_t>;
   Vertices vertices(const Group& g, Room& room) const {
     const Vertices all = tree_.vertices(g.node, room);
@@ -169,7 +169,7 @@ class Obligations {
     }
     return room;
   }
-  /// With a leaf less a vertex that it has.
+  /// The obligation with one vertex of a leaf dropped.
   Obligation less(Obligation o, Side side, std::uint64_t v) const {
     Room room;
     const Vertices all = tree_.vertices((o.*side).node, room);
@@ -178,7 +178,7 @@ class Obligations {
   }
 
   void halve(const Obligation& top, const Reader& c) {
-    pieces_.resize(top.piece + 1);  // nobody speaks of the others any more
+    pieces_.resize(top.piece + 1);  // no obligation refers to the others any more
     const auto [a, b, k, halvings, id] = pieces_.back();
     c.require(halvings < 1024, "the interval is too short for T");
     pieces_.push_back({a + b, 2 * b, 2 * k + 1, halvings + 1, ++pieces_made_});
@@ -238,7 +238,7 @@ class Obligations {
     push({less(top, &Obligation::x, first), less(top, &Obligation::y, last), third});
   }
 
-  /// With small components, quickly if possible.
+  /// A direction with small components: tries the quick tests first.
   void direction(const Obligation& top, const std::array<std::int64_t, 3>& n, const Reader& c) {
     Room of_x, of_y;
     const Vertices x = vertices(top.x, of_x), y = vertices(top.y, of_y);
@@ -260,7 +260,7 @@ class Obligations {
     exactly(top, c, [&](auto&&... rest) { return separated(n, nt, nd, w, rest...); });
   }
 
-  /// Requires holds(piece, eta2, paths, of_x) of a pair.
+  /// Requires that holds(piece, eta2, paths, of_x) is true for a pair.
   template <class Holds>
   void exactly(const Obligation& top, const Reader& c, const Holds& holds) const {
     c.require(!top.self, "S and P are for a pair");

@@ -5,7 +5,7 @@
 // Notation
 //   c       a time over the denominator d of a piece
 //   path    the breakpoints of a vertex around a piece, their times over d
-//   paths   of all vertices of both groups; the first `of_x` of them are those of x
+//   paths   those of all vertices of both groups; the first `of_x` belong to x
 #pragma once
 
 #include "trajectory.h"
@@ -21,7 +21,7 @@ struct Breakpoint {
 using Path = std::vector<Breakpoint>;
 using Paths = std::span<const Path>;
 
-/// The interval [a/d, b/d], the number k of the d = 2^halvings into which the step is cut. Each has another id.
+/// The interval [a/d, b/d], number k of the d = 2^halvings into which the step is cut. Its id is unique.
 struct Piece {
   mpz_class a, b;
   std::uint64_t k = 0, halvings = 0, id = 0;
@@ -29,7 +29,7 @@ struct Piece {
   mpz_class d() const { return mpz_class(1) << halvings; }
 };
 
-/// The motion of a step in integers, made when somebody asks: positions in units of 2^p, times of 2^q.
+/// The motion of a step in integers, computed on demand: positions in units of 2^p, times in units of 2^q.
 class Integers {
  public:
   Integers(const Motion& motion, int p, int q, double eta, const Reader& c) : motion_(motion), p_(p), q_(q) {

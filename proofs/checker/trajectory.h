@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The motion, step by step, from frames or from the block file of a run, and what is claimed of it.
+// Reads the motion, step by step, from frames or from the block file of a run; and the claim about it.
 #pragma once
 
 #include "blocks.h"
@@ -11,15 +11,15 @@ namespace noli::checker {
 /// a <= b.
 using LabelPair = std::array<std::uint32_t, 2>;
 
-/// What does not change.
+/// The part of a trajectory that does not change from step to step.
 struct Scene {
   std::uint32_t dimension = 3;
   std::uint64_t vertices = 0;
   std::vector<Cell> cells;
-  std::set<std::uint32_t> labels;  ///< of a run: those that its cells have
-  std::set<LabelPair> groups;      ///< of a run: those that its scene excludes
+  std::set<std::uint32_t> labels;  ///< of a run: those of its cells
+  std::set<LabelPair> groups;      ///< of a run: pairs that its scene excludes
 
-  /// Of a run: just these pairs of labels have to be excluded. If they are more than `most`, so many and one more.
+  /// Of a run: exactly the pairs of labels that must be excluded; stops once there are more than `most`.
   std::set<LabelPair> excluded(std::size_t most) const {
     std::set<LabelPair> pairs;
     const auto add = [&](std::uint32_t a, std::uint32_t b) {
@@ -37,15 +37,15 @@ struct Scene {
   }
 };
 
-/// What the claims of all steps have in common. Its cells are those after merging.
+/// The common part of the claims of all steps. Its cells are those after merging.
 struct Claim {
   std::uint32_t source = 0, dimension = 3;
   bool strict = false, points = false;
   std::uint32_t ring = 1, merged = 0;
   double eta = 0;
-  std::vector<std::uint32_t> same;  ///< by vertex: the one that stands for it
+  std::vector<std::uint32_t> same;  ///< by vertex: the one that represents it
   std::vector<Cell> cells;
-  std::size_t listed = 0;  ///< of the cells: those that a file lists; vertices without a cell follow
+  std::size_t listed = 0;  ///< number of cells that a file lists; vertices without a cell follow them
   Sha256::Digest hash{};   ///< of the cells
   std::set<LabelPair> excluded;
 
@@ -62,7 +62,7 @@ struct Motion {
   std::vector<Position> x;
   std::optional<Sha256::Digest> group_hash;  ///< of a window in its file
 
-  /// The first breakpoint of a vertex behind its first one of which this does not hold; if there is none, its last.
+  /// The first breakpoint of a vertex, after its first one, for which `holds` is false; its last if there is none.
   template <class Holds>
   std::uint64_t segment_end(std::size_t v, const Holds& holds) const {
     std::uint64_t low = begin[v], high = begin[v + 1] - 1;
@@ -89,7 +89,7 @@ class Trajectory {
   virtual ~Trajectory() = default;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
-  /// Whether something follows. It is not looked at.
+  /// Whether something follows. It is not read.
   virtual bool more() = 0;
 
   Scene scene;
@@ -196,7 +196,7 @@ class Frames : public Trajectory {
   Frame now_;
 };
 
-/// Pairs that ascend strictly, each with a <= b; of integers of this type.
+/// Reads strictly ascending pairs of integers of this type, each with a <= b.
 template <class T>
 std::set<LabelPair> read_pairs(Reader& c, std::uint32_t count, const char* wrong) {
   std::set<LabelPair> pairs;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Version and commit, in a file of their own, so that a commit compiles no more than this.
+// Version and commit, in a file of their own, so that a new commit recompiles only this file.
 namespace noli::checker {
 
 extern const char* const version;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Witnesses: proofs/FORMAT.md, section 5.
+// Checks witnesses: proofs/FORMAT.md, section 5.
 //
 // Notation
 //   Poly      coefficients, the constant term first; the variable is the time
@@ -40,7 +40,7 @@ inline bool divides(const Poly& g, Poly f) {
   return std::ranges::all_of(f, [](const mpz_class& k) { return k == 0; });
 }
 
-/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], but for positive factors: those of
+/// The Bernstein coefficients of f on [l / 2^e, u / 2^e], up to positive factors: those of
 /// 2^(e n) f((l + u z) / (2^e (1 + z))) (1 + z)^n, n being its degree. The first and last are f(l / 2^e), f(u / 2^e).
 inline Poly bernstein(Poly f, const mpz_class& l, const mpz_class& u, unsigned long e) {
   while (!f.empty() && f.back() == 0) f.pop_back();
@@ -54,7 +54,7 @@ inline Poly bernstein(Poly f, const mpz_class& l, const mpz_class& u, unsigned l
   return sum;
 }
 
-/// Rejects what does not hold.
+/// Checks a witness; throws Rejected if it does not hold.
 class Witness {
  public:
   Witness(Reader c, const Claim& claim, const Integers& motion) : claim_(claim), motion_(motion), c_(std::move(c)) {
@@ -127,7 +127,7 @@ class Witness {
     return text + "} of cell " + std::to_string(cell);
   }
 
-  /// The least sign of its Bernstein coefficients; of 0 it is 0.
+  /// The least sign of the Bernstein coefficients of f; 0 if f = 0.
   int least_sign(const Poly& f) const {
     const Poly coefficients = bernstein(f, l_, u_, e_);
     return coefficients.empty() ? 0 : sgn(std::ranges::min(coefficients));
@@ -138,7 +138,7 @@ class Witness {
     Centre sum;
     for (const auto& [v, w] : corners) {
       require(not_negative(w), "a weight may be negative");
-      // On the segment from the last breakpoint at or before l on; at the last of all it rests.
+      // The segment that begins at the last breakpoint at or before l; after the last breakpoint the vertex rests.
       Path path = motion_.path(v, motion_.step());
       std::size_t k = path.size() - 1;
       while (k > 0 && (path[k].t << e_) > l_) --k;
@@ -158,7 +158,7 @@ class Witness {
     return sum;
   }
 
-  /// Whether they are at one place; else they are too near.
+  /// Whether the two points coincide; otherwise they are too near.
   bool meet(const Centre& p, const Centre& q) const {
     bool same = true;
     Poly square;
@@ -175,7 +175,7 @@ class Witness {
     return false;
   }
 
-  /// Whether a path of fewer than K edges joins the sides: vertices are reached from P, an edge at a time.
+  /// Whether a path of fewer than K edges joins the sides. Reaches vertices from P, one edge at a time.
   bool near() const {
     std::vector<std::vector<std::uint32_t>> cells(claim_.same.size());  // by vertex
     for (std::uint32_t i = 0; i < claim_.cells.size(); ++i) {

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end of the verifier's recursion: two cells that no box has separated, or one cell by itself.
+// The end of the verifier's recursion: settles two cells that no box has separated, or one cell by itself.
 //
 // Notation
-//   shared   a vertex that both cells have. No direction separates cells that share one; but two simplices on them that
-//            share none miss each shared vertex on one side at least, so it is enough to settle all *parts* that arise
-//            by dropping each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade; (c,
-//            abd), (bc, ad), (ac, bd), (abc, d) for abc and abd
+//   shared   a vertex that both cells have. No direction separates cells that share one. But two of their features that
+//            share no vertex miss each shared vertex on at least one side. So it is enough to settle all *parts* that
+//            arise by dropping each shared vertex from one side or the other: (bc, ade) and (abc, de) for abc and ade;
+//            (c, abd), (bc, ad), (ac, bd), (abc, d) for abc and abd
 //   open     a pair of parts for which no direction was found, over the whole step or over pieces of it
-//   positions   as in proofs/prover/traversal.h; where they stray from straight lines, directions have to hold with the
-//            radii added, and pieces of time are cut at breakpoints (proofs/prover/windows/pieces.h)
+//   positions   as in proofs/prover/traversal.h; if they stray from straight lines, directions must hold with the radii
+//            added, and pieces of time are cut at breakpoints (proofs/prover/windows/pieces.h)
 //
-// The features of an open pair are taken to the kernel one by one, and whether it meets at the beginning of the step is
+// The kernel decides the features of an open pair one by one. Whether the pair meets at the beginning of the step is
 // decided by a direction at that time or by the exact static predicate. Its tokens, if it has any, are found later
 // (proofs/prover/tokens/step_tokens.h).
 //
-// With tokens, a direction is rounded to the bits of a short token before it is tested, so that what settles an
-// obligation is its token.
-//
-// What this does not do: it never looks at cells other than the two.
+// With tokens, a direction is rounded to the bits of a short token before it is tested, so the tested direction is the
+// one in the token.
 #pragma once
 
 #include "proofs/prover/cells/around.h"
@@ -31,7 +29,7 @@
 
 namespace noli {
 
-/// What to look for, beside the pairs of features of different cells.
+/// What to look for, besides pairs of features of different cells.
 struct CellOptions {
   bool initial = true;  ///< as in VerifyOptions
   bool strict = false;
@@ -55,7 +53,7 @@ class CellPairs {
     if (!settle_usual(a, b, same)) settle_unusual(a, b, same);
   }
 
-  /// Whether it was stopped, and left something out.
+  /// Whether it was stopped before the end.
   bool stopped() const { return stops && stopped_; }
 
   /// Settles the obligation about the features of one cell.
@@ -72,14 +70,14 @@ class CellPairs {
   }
 
  private:
-  /// Tokens of a window, which has been decided.
+  /// Whether this writes tokens of a window that has already been decided.
   static constexpr bool stops = Out::on && !Positions::straight;
 
   struct Parts {
     CornerMask a, b;
   };
 
-  /// The shared vertices: where in a and where in b the i-th of them is.
+  /// The shared vertices: the corners of a and of b at which the i-th of them is.
   struct Shared {
     std::array<CornerMask, 3> in_a{}, in_b{};
     std::size_t count = 0;
@@ -90,16 +88,16 @@ class CellPairs {
     Moving a, b;
   };
 
-  /// Where parts resist: the piece begins here.
+  /// The first piece in which parts resist.
   struct Resistance {
-    double begin;
-    bool apart_at_begin;  ///< they are known to be apart where the span begins
+    double begin;         ///< of the piece
+    bool apart_at_begin;  ///< the parts are known to be apart at the beginning of the span
   };
 
   struct Progress {
     const Cell& a;
     const Cell& b;
-    PairSet left;  ///< pairs of features which belong here and have not been settled
+    PairSet left;  ///< pairs of features that belong here and are not settled yet
     bool open = false;
     bool meets_at_begin = false;
     std::optional<Gathered> gathered = std::nullopt;  ///< a and b, once they are needed
@@ -115,7 +113,7 @@ class CellPairs {
 
   /// Bit 3 i + j: corner i of a is the same vertex as corner j of b.
   static unsigned same_vertices(const Cell& a, const Cell& b) {
-    unsigned same = 0;  // put together, not branched on
+    unsigned same = 0;  // computed without branches
     for (unsigned i = 0; i < 3; ++i) {
       for (unsigned j = 0; j < 3; ++j) same |= (a.vertices[i] == b.vertices[j] ? 1U : 0U) << (3 * i + j);
     }
@@ -137,7 +135,7 @@ class CellPairs {
     return shared;
   }
 
-  /// To the bits of a short token, if there are tokens.
+  /// Rounds a direction to the bits of a short token, if there are tokens.
   static constexpr auto rounded = [](const std::array<double, Dim>& n) __attribute__((always_inline)) {
     if constexpr (Out::on) {
       return shortened(n);
@@ -173,7 +171,7 @@ class CellPairs {
     return false;
   }
 
-  /// Two faces that have one vertex in common, each of them once: whether the usual direction settles them.
+  /// Two faces with one vertex in common, which each has once: whether the usual direction settles them.
   bool settle_around_corner(const Cell& a, const Cell& b, unsigned same) {
     if (!are_faces(a, b)) return false;
     const std::size_t i = place(same) / 3, j = place(same) % 3;
@@ -186,10 +184,10 @@ class CellPairs {
     return true;
   }
 
-  /// Two faces that have two vertices in common, each of them once.
+  /// Two faces with two vertices in common, which each has once.
   struct Hinge {
     std::size_t a, b, c;  ///< in the first face: the common ones, the other
-    std::size_t d;        ///< the other in the second
+    std::size_t d;        ///< in the second face: the other one
   };
 
   static std::optional<Hinge> hinge_of(const Cell& a, const Cell& b, unsigned same) {
@@ -235,20 +233,20 @@ class CellPairs {
     if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
   }
 
-  /// Whether nothing has to be known of pairs of features that are not these.
+  /// Whether parts need not be settled if these are their unsettled pairs of features.
   bool needless(PairSet wanted) const { return !Positions::straight && !Out::on && wanted == 0 && !options_.initial; }
 
-  /// The tokens about the features of one cell.
+  /// Writes the tokens about the features of one cell.
   void write_self(const Cell& c) {
     if (!options_.strict) return tokens_.one();
     tokens_.both();
     Progress progress{c, c, 0};
     const std::uint64_t obligations = tally_.obligations;
     settle_parts(progress, find_shared(c, c), {});
-    tally_.obligations = obligations;  // the kernel decides these pairs, whoever wants tokens
+    tally_.obligations = obligations;  // the kernel decides these pairs, with or without tokens
   }
 
-  /// The place of shared vertex `from` among those from it on, ascending.
+  /// The rank of shared vertex `from` among shared vertices `from`, `from` + 1, ..., by vertex.
   static std::size_t rank(const Cell& a, const Shared& shared, std::size_t from) {
     const VertexId v = a.vertices[place(shared.in_a[from])];
     std::size_t smaller = 0;
@@ -263,7 +261,7 @@ class CellPairs {
     drop_shared(progress, {all_corners(progress.a.corners), all_corners(progress.b.corners)}, shared, 0, known, number);
   }
 
-  /// Goes through the pairs of parts in prefix order and numbers them.
+  /// Visits the pairs of parts in prefix order and numbers them.
   void drop_shared(Progress& progress, Parts parts, const Shared& shared, std::size_t from,
                    const AroundEdge<Dim>& known, std::size_t& number) {
     if (from < shared.count) {
@@ -286,7 +284,7 @@ class CellPairs {
     }
   }
 
-  /// `tried`: the usual directions have been tried in vain.
+  /// `tried`: the usual directions have already failed.
   void settle_part(Progress& progress, Parts parts, bool tried) {
     const PairSet within = pairs_within<Dim>(progress.a, parts.a, progress.b, parts.b);
     if (needless(progress.left & within)) return;
@@ -304,7 +302,7 @@ class CellPairs {
     }
   }
 
-  /// Parts that resist: their pairs of features that are left are decided one by one.
+  /// Decides the unsettled pairs of features of parts that resist, one by one.
   void open(Progress& progress, Parts parts, PairSet left, Resistance resistance) {
     const auto& [a, b] = *progress.gathered;
     progress.open = true;
@@ -319,7 +317,7 @@ class CellPairs {
                               meet_at_begin<Dim>(positions_.at_begin(a), parts.a, positions_.at_begin(b), parts.b);
   }
 
-  /// Parts that no direction separates throughout. Nothing if they are settled over pieces of time.
+  /// For parts that no direction separates throughout: settles them over pieces of time, or says where they resist.
   std::optional<Resistance> resist(const PartPair<Dim>& pair, const Direction<Dim>& guess, const Gathered& cells,
                                    Parts parts) {
     if constexpr (Positions::straight) {
@@ -349,7 +347,7 @@ class CellPairs {
     return (a.corners == 3 && try_direction(pair, a.normal)) || (b.corners == 3 && try_direction(pair, b.normal));
   }
 
-  /// Looks for a direction over the interval, else over its halves.
+  /// Looks for a direction over the interval, or for directions over its halves.
   bool search(const PartPair<Dim>& pair, const Direction<Dim>& guess, Interval interval, int depth) {
     if (const auto n = find_direction(pair, guess, interval, search_rounds)) {
       ++tally_.obligations;
@@ -375,9 +373,8 @@ class CellPairs {
     return false;
   }
 
-  /// A corner of a face against the edge opposite to it: features of one cell, which count if it is asked for or (in
-  /// 2D, where a pair of features may have both its owners in one cell) if they are features of two different cells as
-  /// well.
+  /// Settles a corner of a face against the opposite edge. These features of one cell count with `strict`. In 2D they
+  /// also count if they are features of two different cells too: both owners of a pair may then be this cell.
   void settle_opposite(const Cell& c, unsigned corner) {
     const unsigned edge = (corner + 1) % 3;
     const FeatureMask mask = corner_bit(static_cast<int>(corner)) | edge_bit(static_cast<int>(edge));

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which of many contacts is the first? Exact, although only a few times of impact are ever computed exactly.
+// Finds the first of many contacts exactly, although it computes only a few times of impact exactly.
 //
 // Notation
 //   candidate  a contact whose enclosure begins no later than the least end of an enclosure seen so far: it may be the
 //              first
 //
-// Contacts are ordered by exact first time, equal ones by canonical order (pair, then vertices), so the answer does not
-// depend on the order in which they come.
-//
-// What this does not do: it does not find contacts.
+// Contacts are ordered by exact first time, ties by canonical order (pair, then vertices), so the answer does not
+// depend on the order in which they are added.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +29,7 @@ bool canonical_less(const FeatureContact& a, const FeatureContact& b);
 /// Puts the vertices into the canonical order of FeatureContact.
 FeatureContact canonical(FeaturePair pair, const std::array<VertexId, 4>& vertices, TimeEnclosure first);
 
-/// A contact with its exact first time; `contact.first` are neighbouring doubles around it, or equal to it.
+/// A contact with its exact first time; the ends of `contact.first` are neighbouring doubles around it, or equal to it.
 struct ContactAtTime {
   FeatureContact contact;
   TimeOfImpact time;
@@ -46,8 +44,8 @@ struct ExactlyInStep {
   ContactAtTime operator()(const FeatureContact& contact) const;
 };
 
-/// Collects contacts and keeps those that may be the first. Memory is bounded, however many there are.
-/// `Exactly` decides a contact exactly: what it returns has `contact` and `time`, as ContactAtTime.
+/// Collects contacts and keeps those that may be the first, in bounded memory. `Exactly` decides a contact exactly; its
+/// result has `contact` and `time`, like ContactAtTime.
 template <class Exactly>
 class EarliestOf {
  public:
@@ -79,7 +77,8 @@ class EarliestOf {
  private:
   static constexpr std::size_t most_candidates = 256;
 
-  /// Whether both times are the same double. Then they are not computed: thousands of pairs may begin in contact.
+  /// Whether both times are the same double. Such times are not computed exactly: thousands of pairs may begin in
+  /// contact.
   static bool at_one_double(const TimeEnclosure& a, const TimeEnclosure& b) {
     return a.begin == a.end && a.begin == b.begin && a.end == b.end;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pairs of features of two cells, as sets, and the exact question about one of them.
+// The pairs of features of two cells, as sets, and the exact decision of one pair.
 //
 // Notation
 //   a, b       two different cells; a_i, b_j their corners; e_i the edge of a face from corner i to corner i + 1
@@ -8,11 +8,10 @@
 //              against edge j of b. In both: 20 + 3 i + j: a_i against edge j of b; 29 + 3 j + i: b_j against edge i of
 //              a; 40 + 3 i + j: a_i against b_j
 //
-// Which pairs of features there are is said in proofs/prover/verifier.h. The last, and in 3D the last two kinds, are
-// pairs that may be left over (proofs/prover/cells/leftover.h).
+// proofs/prover/verifier.h defines which pairs of features count. The last kind, and in 3D the last two, are pairs that
+// may be left over (proofs/prover/cells/leftover.h).
 //
-// What this does not do: it does not know which features share vertices; the parts it is given do not
-// (proofs/prover/cell_pair.h).
+// It does not check whether features share vertices: the parts must have none in common (proofs/prover/cell_pair.h).
 #pragma once
 
 #include <algorithm>
@@ -46,8 +45,8 @@ constexpr PairSet vertex_edge_set(unsigned a_corners, unsigned a_edges, unsigned
   return product(a_corners, b_edges) << vertex_edge_shift | product(b_corners, a_edges) << edge_vertex_shift;
 }
 
-/// The pairs of the given corners and edges of a with those of b of which each is counted, whatever else is. A face
-/// counts as present if `a_face`, `b_face`.
+/// The pairs of the given corners and edges of a with those of b that count in any case (not only when left over). A
+/// face is present if `a_face` or `b_face`.
 template <int Dim>
 PairSet pair_set(unsigned a_corners, unsigned a_edges, bool a_face, unsigned b_corners, unsigned b_edges, bool b_face) {
   if constexpr (Dim == 3) {
@@ -57,7 +56,7 @@ PairSet pair_set(unsigned a_corners, unsigned a_edges, bool a_face, unsigned b_c
   }
 }
 
-/// A set of small pairs, each of them once.
+/// A set of small pairs without duplicates.
 class SmallPairs {
  public:
   void add(const SmallPair& pair, unsigned bit) {
@@ -82,7 +81,7 @@ inline void add_vertex_edge(const CellShape& a, const CellShape& b, unsigned shi
   }
 }
 
-/// Those that a and b leave over. Precondition: few_vertices(a, b).
+/// The small pairs that a and b leave over. Precondition: few_vertices(a, b).
 template <int Dim>
 [[gnu::noinline]] PairSet left_over(const CellShape& a, const CellShape& b) {
   SmallPairs pairs;
@@ -111,8 +110,8 @@ PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, 
          detail::product(a_part, b_part) << detail::vertex_vertex_shift;
 }
 
-/// The pairs of features that belong to this pair of cells, or may: what the cells leave over, they may not be the only
-/// ones to leave over (Leftovers::counted_at).
+/// The pairs of features that belong to this pair of cells, and those that may: other cells may leave over the same
+/// pairs (Leftovers::counted_at decides).
 template <int Dim>
 PairSet pairs_owned(const CellNames& a, const CellNames& b) {
   const PairSet pairs = detail::pair_set<Dim>(a.owned & 7, a.owned >> 3 & 7, a.corners == 3, b.owned & 7,
@@ -121,7 +120,7 @@ PairSet pairs_owned(const CellNames& a, const CellNames& b) {
   return few_vertices(a_shape, b_shape) ? pairs | detail::left_over<Dim>(a_shape, b_shape) : pairs;
 }
 
-/// One feature of a cell, by its corners; `size` of them count.
+/// One feature of a cell, by its corners; the first `size` count.
 struct Feature {
   std::array<std::uint8_t, 3> corners{};
   std::uint8_t size = 0;
@@ -150,7 +149,7 @@ struct FeatureQuestion {
   }
 };
 
-/// The pair of features that the lowest bit of a set stands for. Precondition: the set is not empty.
+/// The pair of features of the lowest bit of a set. Precondition: the set is not empty.
 template <int Dim>
 FeatureQuestion<Dim> first_of(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
   using Question = FeatureQuestion<Dim>;
@@ -174,8 +173,8 @@ FeatureQuestion<Dim> first_of(PairSet set, const MovingCell<Dim>& a, const Movin
   return Question{FeaturePair::vertex_vertex, &a, corner_feature(i), &b, corner_feature(j)};
 }
 
-/// Whether the lowest bit of a set stands for a pair that is counted where these cells are. Precondition: the set is
-/// not empty, and part of pairs_owned(a, b).
+/// Whether the pair of the lowest bit of a set is counted at these cells. Precondition: the set is not empty, and part
+/// of pairs_owned(a, b).
 template <int Dim>
 bool counted_here(PairSet set, const MovingCell<Dim>& a, const MovingCell<Dim>& b, const Leftovers& leftovers) {
   const auto question = first_of(set, a, b);

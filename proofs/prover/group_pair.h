@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two groups of a hierarchy, packed.
+// Two groups of a hierarchy, packed for speed.
 //
 // Notation
-//   word    two numbers of 32 bits, of the first group in the lower half and of the second in the upper; what does not
-//           carry over is done to both at once
+//   word    two numbers of 32 bits: of the first group in the lower half, of the second in the upper half. Operations
+//           without a carry between the halves apply to both at once
 //
-// The walk of the verifier makes some ten of these a cell, and keeps them in a stack, word by word: a processor has to
-// wait for what is stored in small pieces and loaded in large ones, as compilers like to do with structures.
-//
-// What this does not do: it does not look at the hierarchy.
+// The walk of the verifier makes about ten of these per cell, and keeps them on a stack, word by word. Compilers often
+// store structures in small pieces and load them in large ones, and the processor then stalls.
 #pragma once
 
 #include "proofs/prover/hierarchy.h"
@@ -39,8 +37,8 @@ class GroupPair {
   bool second_is_leaf() const { return high(count_) == 1; }
   bool both_leaves() const { return count_ == ones; }
 
-  /// Children; left_whole() is the left child of the first group with the second group, and so on. Precondition: what
-  /// is split is no leaf.
+  /// Children; left_whole() is the left child of the first group with the second group, and so on. Precondition: a
+  /// group that is split is not a leaf.
   GroupPair left_left() const { return {node_ + ones, begin_, half()}; }
   GroupPair right_right() const { return {node_ + 2 * half(), begin_ + half(), count_ - half()}; }
   GroupPair left_right() const { return mixed(left_left(), right_right()); }
@@ -75,14 +73,14 @@ class GroupPair {
   Word node_, begin_, count_;
 };
 
-/// The last in is the first out. At most `Size` at once.
+/// A stack of at most `Size` pairs.
 template <std::size_t Size>
 class GroupPairStack {
  public:
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
 
-  /// Pushes a pair with some notes about it, or, if not `keep`, nothing. Does not branch on that.
+  /// Pushes a pair with notes about it, if `keep`; otherwise nothing. Does not branch on `keep`.
   void push(const GroupPair& pair, std::uint8_t notes, bool keep = true) {
     node_[size_] = pair.node_;
     begin_[size_] = pair.begin_;

@@ -59,7 +59,7 @@ class Builder {
     split_at(first, first + g.count / 2, first + g.count, longest_axis(g));
   }
 
-  /// Splits a group all the way down, lists its leaves and fits its boxes.
+  /// Splits a group down to its leaves, lists them and fits its boxes.
   void finish(Group g, std::uint32_t* leaf_cells, GroupBox* boxes) {
     if (g.is_leaf()) {
       const std::uint32_t cell = leaf_cells[g.begin] = cell_in(entries_[g.begin]);

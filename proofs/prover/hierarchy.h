@@ -7,13 +7,13 @@
 //            + 1 and its right child right after the left one's 2 (m / 2) - 1 nodes
 //   box      least and greatest coordinate of the group, per axis, at t = 0 and at t = 1 (not the box swept in between)
 //   phi      a map of coordinates to float, one for each axis and end: subtract the middle of the scene, scale by a
-//            power of two, round. Every step is monotone (rounding is), so phi(a) > phi(b) implies a > b: boxes are
-//            kept as floats and yet an order found between them is exact
+//            power of two, round. Every step is monotone, even rounding, so phi(a) > phi(b) implies a > b. So boxes are
+//            floats, but an order found between them is exact
 //
 // If on one axis the boxes of two groups are in the same strict order at t = 0 and at t = 1, the axis is a separating
 // direction for the whole step.
 //
-// What this does not do: it balances by number, not by cost; it is not updated when the mesh moves.
+// The tree is balanced by the number of cells. It is made anew for each step.
 #pragma once
 
 #include <array>
@@ -37,13 +37,13 @@ namespace noli {
 struct Phi {
   double middle = 0, scale = 1;
 
-  /// The map that takes [low, high], about, into [-1, 1]; both bounds are finite.
+  /// A map that takes [low, high] approximately onto [-1, 1]; both bounds are finite.
   static Phi onto_unit(double low, double high);
 
   float operator()(double x) const { return static_cast<float>((x - middle) * scale); }
 };
 
-/// Four floats that are compared and combined lane by lane (an extension that g++ and clang++ share).
+/// Four floats that are compared and combined lane by lane (an extension of g++ and clang++).
 using Lanes = float __attribute__((vector_size(16)));
 
 /// phi of the extreme coordinates of a group. Lanes: the axes, then unused (zero).
@@ -89,7 +89,7 @@ unsigned lanes_where(const Comparison& lanes) {
 #endif
 }
 
-/// The axes on which they are: bit k, or bit 4 + k where b is the upper one.
+/// The axes that separate two boxes: bit k if a is the upper one, bit 4 + k if b is.
 inline unsigned separating_axes(const GroupBox& a, const GroupBox& b) {
   const auto over = (a.low_t0 > b.high_t0) & (a.low_t1 > b.high_t1);
   const auto under = (b.low_t0 > a.high_t0) & (b.low_t1 > a.high_t1);
@@ -107,8 +107,8 @@ struct Group {
   Group right() const { return {node + 2 * (count / 2), begin + count / 2, count - count / 2}; }
 };
 
-/// The first level below a root with enough groups for several threads. Calls at_level(groups) with each level above,
-/// from the root on, before it makes the next one.
+/// The first level below a root with enough groups for several threads. Calls at_level(groups) with each level above
+/// it, from the root down, before it makes the next one.
 template <class AtLevel>
 std::vector<Group> top_groups(Group root, const AtLevel& at_level) {
   constexpr std::size_t enough = 64;
@@ -128,8 +128,8 @@ std::vector<Group> top_groups(Group root, const AtLevel& at_level) {
 class Hierarchy {
  public:
   /// Splits each group at the median of its cells' mid-time centres along its longest axis (ties by cell number), so
-  /// the tree depends on nothing but the input. O(n log n). Preconditions: as verify_step; at least one cell; dimension
-  /// 2 or 3.
+  /// the tree depends only on the input. O(n log n). Preconditions: as verify_step; at least one cell; dimension 2 or
+  /// 3.
   Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
             int threads);
 
@@ -140,7 +140,7 @@ class Hierarchy {
 
  private:
   std::uint32_t count_;
-  // Not vectors: those would first be filled with zeros, by one thread.
+  // Not vectors, as one thread would first fill them with zeros.
   std::unique_ptr<std::uint32_t[]> leaf_cells_;
   std::unique_ptr<GroupBox[]> boxes_;
 };

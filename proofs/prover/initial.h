@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two parts meet at the beginning of the step? Exact.
+// Decides exactly whether two parts meet at the beginning of the step.
 //
 // Notation
 //   part  some corners of a cell: a point, a segment or a triangle (any of them possibly degenerate)

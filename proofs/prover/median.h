@@ -3,15 +3,15 @@
 // Splits a group of cells at the median.
 //
 // Notation
-//   entry    a cell with what it is ordered by, one integer for each axis
-//   before   by the integer of the axis, then by the number of the cell: no two entries of a group are alike, so which
-//            entries come before the middle depends on nothing else
+//   entry    a cell with its sort keys, one integer for each axis
+//   before   by the integer of the axis, then by the number of the cell. No two entries of a group compare equal, so
+//            nothing else decides which entries come before the middle
 //
 // A quickselect as in Floyd and Rivest, "Expected time bounds for selection" (1975): the pivot is taken from a sample,
-// a little beyond the middle, so that mostly two passes are enough. A pass has no branch that depends on the entries,
-// because no processor could predict it.
+// a little beyond the middle, so that two passes are usually enough. A pass has no branch that depends on the entries,
+// as processors could not predict it.
 //
-// What this does not do: it leaves either side in no particular order.
+// Both sides are left in unspecified order.
 #pragma once
 
 #include <algorithm>
@@ -27,13 +27,13 @@ using Entry = std::int32_t __attribute__((vector_size(16)));
 
 inline std::uint32_t cell_in(const Entry& e) { return static_cast<std::uint32_t>(e[3]); }
 
-/// An integer for each float (not a NaN) that is ordered as they are; 0 and -0 are alike.
+/// Maps floats (except NaN) to integers in the same order; 0 and -0 give the same integer.
 inline std::int32_t ordered(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x + 0.0F);
   return bits ^ (bits >> 31 & 0x7fffffff);
 }
 
-/// The float of an integer.
+/// The inverse of ordered().
 inline float from_ordered(std::int32_t i) { return std::bit_cast<float>(i ^ (i >> 31 & 0x7fffffff)); }
 
 namespace detail {
@@ -48,7 +48,7 @@ bool before(const Entry& a, const Entry& b) {
   return key<Axis>(a) < key<Axis>(b);
 }
 
-/// Moves what comes before the pivot to the front; returns where it ends.
+/// Moves the entries before the pivot to the front; returns where they end.
 template <std::size_t Axis>
 Entry* partition(Entry* first, Entry* last, std::int64_t pivot) {
   Entry* end = first;
@@ -82,15 +82,16 @@ void insertion_sort(Entry* first, Entry* last) {
   }
 }
 
-/// Puts before `middle` what comes before it. Precondition: middle is in [first, last).
+/// Moves the entries that come before the one at `middle` in order to [first, middle). Precondition: middle is in
+/// [first, last).
 template <std::size_t Axis>
 void split_at(Entry* first, Entry* middle, Entry* last) {
   constexpr std::ptrdiff_t few = 16, many = 512;
   for (int passes = 0; last - first > few; ++passes) {
-    if (passes == 40) return std::nth_element(first, middle, last, before<Axis>);  // a sample that misleads every time
+    if (passes == 40) return std::nth_element(first, middle, last, before<Axis>);  // samples were bad every time
     const std::ptrdiff_t size = last - first;
     const double rank = static_cast<double>(middle - first) / static_cast<double>(size);
-    // Beyond the middle by a little more than the sample may be wrong, on the side where more is left over.
+    // Beyond the middle by a little more than the error of the sample, towards the larger side.
     const double margin = size > many ? 0.06 : 0.12;
     const double aim = std::clamp(rank < 0.5 ? rank + margin : rank - margin, 0.0, 1.0);
     const std::int64_t pivot = size > many ? sampled<Axis, 63>(first, last, aim) : sampled<Axis, 7>(first, last, aim);
@@ -111,7 +112,7 @@ void split_at(Entry* first, Entry* middle, Entry* last) {
 
 }  // namespace detail
 
-/// Puts before `middle` what comes before it along an axis. Precondition: middle is in [first, last).
+/// The same along an axis that is known only at run time.
 inline void split_at(Entry* first, Entry* middle, Entry* last, std::size_t axis) {
   if (axis == 0) return detail::split_at<0>(first, middle, last);
   return axis == 1 ? detail::split_at<1>(first, middle, last) : detail::split_at<2>(first, middle, last);

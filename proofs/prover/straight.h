@@ -2,8 +2,7 @@
 //
 // Positions of vertices in a step between two frames, for the walk over pairs of groups: exact, along straight lines.
 //
-// This is the kind of positions that `Traversal` and `CellPairs` are made for here; proofs/prover/windows/chords.h is
-// the other one.
+// `Traversal` and `CellPairs` take these positions or those of proofs/prover/windows/chords.h.
 #pragma once
 
 #include "proofs/prover/feature_pairs.h"
@@ -18,7 +17,7 @@ class Straight {
  public:
   static constexpr int dim = Dim;
   static constexpr bool straight = true;             ///< each vertex moves along one straight line, exactly
-  static constexpr std::uint32_t least_grain = 256;  ///< cells of a task, at least
+  static constexpr std::uint32_t least_grain = 256;  ///< the least number of cells of a task
   using Cell = StepCell<Dim>;
   using Gathered = MovingCell<Dim>;
   using Tally = noli::Tally;
@@ -27,7 +26,7 @@ class Straight {
   Straight(const Hierarchy& hierarchy, const StepCell<Dim>* cells, const Leftovers& leftovers)
       : hierarchy_(hierarchy), cells_(cells), leftovers_(leftovers) {}
 
-  /// Called before an obligation is walked over.
+  /// Called before the walk over an obligation.
   void begin(const Obligation& /*obligation*/) {}
 
   const GroupBox& box_of(std::size_t node) const { return hierarchy_.box_of(node); }
@@ -36,11 +35,11 @@ class Straight {
 
   /// Whether a pair of groups is not to be compared.
   static constexpr bool left_out(const GroupPair& /*pair*/) { return false; }
-  /// Whether a pair of groups is settled by something other than a direction.
+  /// Whether a pair of groups is settled by other means than a direction.
   static constexpr bool settled_at_once(const GroupPair& /*pair*/) { return false; }
 
   static constexpr double begin_time() { return 0; }
-  /// Whether that is where the step begins, and a cell with its exact positions there.
+  /// Whether begin_time() is the beginning of the step; and a cell with its exact positions then.
   static constexpr bool from_the_beginning() { return true; }
   const Gathered& at_begin(const Gathered& cell) const { return cell; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one task of a verification has found; the tallies of all tasks, added up in order, are the result.
+// The findings of one task of a verification. The tallies of all tasks, added up in order, are the result.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace noli {
 
-/// Keeps the least `limit` of the values it is given.
+/// Keeps the least `limit` of the values added.
 template <class T, bool (*Less)(const T&, const T&)>
 class Least {
  public:
@@ -32,7 +32,7 @@ class Least {
     for (const T& value : other.heap_) add(value);
   }
 
-  /// The values in ascending order. Leaves nothing behind.
+  /// The values in ascending order. Leaves this empty.
   std::vector<T> take() {
     std::sort_heap(heap_.begin(), heap_.end(), Less);
     return std::move(heap_);
@@ -47,7 +47,7 @@ inline bool initial_less(const InitialIntersection& a, const InitialIntersection
   return a.first_cell != b.first_cell ? a.first_cell < b.first_cell : a.second_cell < b.second_cell;
 }
 
-/// `First`: what finds the first contact of all.
+/// `First` finds the first of all contacts.
 template <class First>
 struct TallyWith {
   TallyWith(std::size_t max_reports, const First& none)
@@ -62,7 +62,7 @@ struct TallyWith {
   std::uint64_t obligations = 0;
   std::uint64_t cell_pairs = 0;
 
-  /// Leaves no reports behind.
+  /// Moves the reports out.
   Findings findings(bool complete) {
     return {complete,    contacts,  initial_intersections, reports.take(), initial_reports.take(), stages,
             obligations, cell_pairs};
@@ -96,7 +96,7 @@ struct TallyWith {
   }
 };
 
-/// Of a step between two frames.
+/// The tally of a step between two frames.
 using Tally = TallyWith<EarliestOf<ExactlyInStep>>;
 
 }  // namespace noli

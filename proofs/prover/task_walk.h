@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The walk over some obligations, cut into tasks for several threads.
+// Walks over some obligations, cut into tasks for several threads.
 //
-// What is found does not depend on the threads: it is added up in the order of the tasks. With `first_only`, tasks
-// behind the first that finds something do not count, because whether they ran depends on the threads.
+// Findings do not depend on the threads: they are added up in the order of the tasks. With `first_only`, tasks after
+// the first that finds something do not count, because whether they ran depends on the threads.
 #pragma once
 
 #include <limits>
@@ -15,12 +15,12 @@
 
 namespace noli {
 
-/// Tells the caller how it goes: one thread at a time, never backwards.
+/// Reports progress to the caller: one thread at a time, never backwards.
 class Progress {
  public:
   explicit Progress(const VerifyOptions& options) : tell_(options.progress) {}
 
-  /// The next so many tasks go from one share of the work to another.
+  /// The next `tasks` tasks take the progress from one share of the work to another.
   void begin(double from, double to, std::size_t tasks) {
     from_ = from;
     to_ = to;
@@ -49,7 +49,7 @@ class Progress {
   std::mutex mutex_;
 };
 
-/// What a walk leaves behind.
+/// The result of a walk.
 template <class Positions, class Out>
 struct WalkOutcome {
   typename Positions::Tally tally;
@@ -63,14 +63,14 @@ class TaskWalk {
  public:
   using Outcome = WalkOutcome<Positions, Out>;
 
-  /// `none`: a tally of nothing. All have to outlive this.
+  /// `none`: an empty tally. All arguments must outlive this.
   TaskWalk(const Positions& positions, const VerifyOptions& options, const StopSignal& stop,
            const typename Positions::Tally& none)
       : positions_(positions), options_(options), stop_(stop), none_(none), top_{none} {}
 
-  /// Walks the top of the trees over so many cells, where there is little to do: top(traversal), false when it was not
-  /// finished. What is below becomes tasks about a 256th of the cells at most, a 128th for the proof of a window (whose
-  /// blocks end where tasks do), or Positions::least_grain if that is more.
+  /// Walks the top of the trees over this many cells, where there is little to do: top(traversal) returns false if it
+  /// did not finish. Everything below becomes tasks. A task is about at most a 256th of the cells, a 128th for the
+  /// proof of a window (whose blocks end where tasks do), or Positions::least_grain if that is more.
   template <class Top>
   void cut(std::size_t cells, const Top& top) {
     Traversal<Positions, Out> traversal(positions_, options_, stop_, top_.tally, top_.out);
@@ -80,7 +80,7 @@ class TaskWalk {
     outcomes_.resize(tasks_.size());
   }
 
-  /// Settles the tasks; calls done(task) behind each, from any thread. Then adds all up.
+  /// Settles the tasks; calls done(task) after each, from any thread. Then adds up the findings.
   template <class Done>
   void run(const Done& done) {
     parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
@@ -94,7 +94,7 @@ class TaskWalk {
     }
   }
 
-  /// The tally is that of all; the tokens are those of the top, behind which each task has its place.
+  /// The tally of everything, and the tokens of the top; the tokens of each task follow at tokens_before.
   Outcome& sum() { return top_; }
   const std::vector<Deferred>& tasks() const { return tasks_; }
   Outcome& outcome(std::size_t task) { return *outcomes_[task]; }

@@ -4,12 +4,12 @@
 //
 // Notation
 //   obligation  as in proofs/FORMAT.md: a pair of groups, or one with itself
-//   grain       obligations about at most so many cells are put off, when a list to put them on is given: that is how
-//               the work is cut into tasks which do not depend on the number of threads
-//   positions   where vertices are, and which boxes hold them: Straight (proofs/prover/straight.h) between two frames,
-//               Chords (proofs/prover/windows/chords.h) in a window
+//   grain       obligations about at most this many cells are deferred, if a list for them is given. So the work is cut
+//               into tasks that do not depend on the number of threads
+//   positions   the positions of vertices, and boxes around them: Straight (proofs/prover/straight.h) between two
+//               frames, Chords (proofs/prover/windows/chords.h) in a window
 //
-// What this does not do: it makes no threads and adds nothing up.
+// proofs/prover/task_walk.h runs tasks on threads and adds up their findings.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace noli {
 
-/// An obligation that was put off, behind so many bytes of tokens.
+/// An obligation that was deferred, and the place of its tokens.
 struct Deferred {
   Obligation obligation;
   std::size_t tokens_before = 0;
@@ -60,13 +60,13 @@ class Traversal {
         tokens_(out.tokens),
         cell_pairs_({options.initial && positions.from_the_beginning(), options.strict}, positions_, tally, out) {}
 
-  /// From now on puts obligations about at most `grain` cells on the list.
+  /// From now on defers obligations about at most `grain` cells to the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {
     grain_ = grain;
     deferred_ = &list;
   }
 
-  /// Settles an obligation. False if it was stopped, or found what first_only looks for, before the end.
+  /// Settles an obligation. False if it ended early: it was stopped, or found a contact with first_only.
   bool run(const Obligation& obligation) {
     stopped_ = stop_.raised();
     closed_ = 0;
@@ -79,13 +79,13 @@ class Traversal {
   }
 
  private:
-  /// How many pairs of groups are settled between two looks at the clock.
+  /// The number of pairs of groups between two checks of the clock.
   static constexpr unsigned patience = 4096;
-  /// Each of at most 32 levels leaves two obligations behind where a self is split, and three where a pair is.
+  /// Each of at most 32 levels leaves two obligations on the stack when a self is split, and three when a pair is.
   static constexpr std::size_t stack_size = 32 * (2 + 3);
 
-  /// Notes about a pair on the stack, with tokens: it has been closed by the axis with this code, if not 0; before it
-  /// the second group was split.
+  /// Notes about a pair on the stack, with tokens: the code of the axis that has closed it, if not 0; and whether the
+  /// second group was split just before.
   static constexpr std::uint8_t axis_code = 0x0f, after_split = 0x80;
 
   [[gnu::always_inline]] void take_next() {
@@ -126,8 +126,8 @@ class Traversal {
     stack_.push({left, left}, 0);
   }
 
-  /// What no axis separates. Both groups are split at once, without a test of one with half of the other: that mostly
-  /// fails.
+  /// Takes apart a pair that no axis separates. Splits both groups at once: testing one against half of the other
+  /// usually fails.
   [[gnu::always_inline]] void take_apart(const GroupPair& pair) {
     if (pair.both_leaves()) {
       cell_pairs_.settle(positions_.cell(pair.first()), positions_.cell(pair.second()));
@@ -147,7 +147,7 @@ class Traversal {
     }
   }
 
-  /// Half of the first group with both halves of the second.
+  /// Pushes half of the first group with both halves of the second.
   [[gnu::always_inline]] void push_halves(const GroupPair& left, const GroupPair& right) {
     if constexpr (!Out::on) {
       push_tested(right);
@@ -155,7 +155,7 @@ class Traversal {
     } else {
       const unsigned of_left = order_of(left), of_right = order_of(right);
       closed_ += (of_left != 0 ? 1 : 0) + (of_right != 0 ? 1 : 0);
-      // What separates both separates the whole: one token.
+      // An axis that separates both halves separates the whole, with one token.
       if ((of_left & of_right) != 0) return stack_.push(left, Tokens::axis_code_of(of_left & of_right));
       stack_.push(right, Tokens::axis_code_of(of_right));
       stack_.push(left, Tokens::axis_code_of(of_left) | after_split);
@@ -165,7 +165,7 @@ class Traversal {
   const GroupBox& first_box(const GroupPair& pair) const { return positions_.box_of(pair.first_node()); }
   const GroupBox& second_box(const GroupPair& pair) const { return positions_.box_of(pair.second_node()); }
 
-  /// Whether an axis separates the two is not branched on, because it cannot be predicted. What is closed is kept only
+  /// Does not branch on whether an axis separates the two, as that cannot be predicted. A closed pair is pushed only
   /// for its token.
   [[gnu::always_inline]] void push_tested(const GroupPair& pair) {
     if constexpr (Out::on) {

@@ -63,8 +63,7 @@ class Verification {
     });
   }
 
-  /// Puts together what the tasks have written. Nothing where parts are left that no direction separates, or it was
-  /// stopped.
+  /// Joins the tokens of the tasks. Nothing if no direction separates some of the remaining parts, or it was stopped.
   std::shared_ptr<const StepProof> prove(TaskWalk<Straight<Dim>, Out>& walk) const {
     auto proof = std::make_shared<StepProof>();
     const auto order = hierarchy_->leaf_cells();

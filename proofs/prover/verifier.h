@@ -1,37 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Did anything touch between these two frames? Exact, with every pair of features accounted for.
+// Decides exactly whether anything touched between two frames, accounting for every pair of features.
 //
 // Notation
 //   cell        a face, a loose edge or a loose point of the mesh; its features are its vertices, edges and itself
 //   x_t0, x_t1  positions of the vertices at the beginning and at the end of the step; between them each moves linearly
-//   obligation  a pair of groups of cells (or a group with itself) whose vertex-disjoint features have to be shown
-//               apart
+//   obligation  a pair of groups of cells (or a group with itself) whose vertex-disjoint features must be shown apart
 //
-// The verifier walks a hierarchy of groups. An obligation is closed by one separating direction when there is one; else
-// the groups are split; a pair of cells that no direction separates is taken apart into its pairs of features, and
-// the exact kernel decides each. Which pairs of features are counted:
+// The verifier walks a hierarchy of groups. A separating direction closes an obligation; without one, the groups are
+// split. A pair of cells that no direction separates is taken apart into its pairs of features, and the exact kernel
+// decides each. Which pairs of features are counted:
 //   3D  vertex_face    every vertex of a cell (loose points included) against every face
 //       edge_edge      every edge of a face and every loose edge, against every other
 //       vertex_edge    a vertex of one cell against an edge of another, for which no vertex_face or edge_edge pair of
 //                      these two cells stands
 //   2D  vertex_edge    every vertex of a cell against every edge
 //   both vertex_vertex a vertex of one cell against one of another, for which no larger pair of these two cells stands
-// each pair once, only pairs that share no vertex and belong to two different cells. A pair stands for another if its
-// two features contain the two of the other: where those meet, it does. So in 3D vertex_edge is a loose point against a
-// loose edge; c against ab for loose edges ac and ab (whether or not the edge_edge pair (cd, ab) of other cells is
-// there as well), or where one of the two is a loose cell and the other the face abc or part of it, or the face abc is
-// listed twice. vertex_vertex is two loose points; p against q for the loose edge pq and a loose point p, or the edge
-// listed twice. A face that has a vertex twice is treated alike (proofs/prover/cells/leftover.h). A closed or bordered
-// mesh of faces, each with three vertices and listed once, has only vertex_face and edge_edge.
+// Each pair counts once; only pairs that share no vertex and belong to two different cells count. A pair stands for
+// another if its two features contain the two of the other: whenever those meet, it meets too. So vertex_edge in 3D is
+// a loose point against a loose edge. It is also c against ab, if ac and ab are loose edges (even if other cells have
+// the edge_edge pair (cd, ab)), if one of the two is a loose cell and the other is in the face abc, or if the face abc
+// is listed twice. vertex_vertex is two loose points. It is also p against q, for the loose edge pq and a loose point
+// p, or if the edge is listed twice. A face that has a vertex twice is treated likewise
+// (proofs/prover/cells/leftover.h). A closed or bordered mesh of faces, each with three vertices and listed once, has
+// only vertex_face and edge_edge.
 //
-// With `strict` also: in 3D each corner of a face against the edge opposite to it, as vertex_edge; in 2D the pairs of
-// one cell; the two ends of a loose edge, as vertex_vertex; not once more if they are counted above. An edge is a pair
-// of vertex ids, whichever cells list it and how often; a face that is listed twice is two faces. Of two cells that
-// meet, some pair meets, or they do so from the beginning. Vertices are who they are by index.
+// With `strict` these count too, unless counted above: in 3D each corner of a face against the opposite edge, as
+// vertex_edge; in 2D the pairs of one cell; the two ends of a loose edge, as vertex_vertex. An edge is a pair of vertex
+// ids, no matter which cells list it and how often; a face that is listed twice is two faces. If two cells meet, some
+// pair of features meets, or the cells meet from the beginning. Vertices are identified by index and never merged.
 //
-// What this does not do: it writes no proof file (it can hand out the tokens of one), it knows no thickness, and it
-// does not read files.
+// It can give the tokens of a proof; proofs/prover/tokens/proof_file.h writes the file.
 #pragma once
 
 #include <array>
@@ -53,39 +52,39 @@
 namespace noli {
 
 struct VerifyOptions {
-  int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is not looked at
+  int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is ignored
   int threads = 0;          ///< 0: all there are
   bool initial = true;      ///< look for intersections at the beginning of the step
-  bool first_only = false;  ///< stop at any contact or initial intersection; at which is deterministic all the same
-  bool strict = false;      ///< also the vertex-disjoint features of one cell (a face that degenerates)
+  bool first_only = false;  ///< stop at any contact or initial intersection, deterministically chosen
+  bool strict = false;      ///< also compare the vertex-disjoint features of one cell (a face that degenerates)
   std::size_t max_reports =
-      100;  ///< at most so many contacts and initial intersections are listed; counts are always exact
+      100;  ///< the most contacts and initial intersections that are listed; counts are always exact
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the result is incomplete
   std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::function<void(double)> progress;  ///< called from any thread, serialised, with the share of work done in [0, 1]
+  std::function<void(double)> progress;  ///< called from any thread, one at a time, with the share done in [0, 1]
   bool prove = false;                    ///< also writes the proof that nothing touches, if nothing does
 };
 
-/// That nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
+/// The proof that nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
 struct StepProof {
-  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree
+  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree()
   JoinedTokens tokens;
 };
 
 struct VerifyResult : Findings {
-  /// A contact whose first time is the least of all, when there is any; ties: the least in canonical order.
+  /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
-  /// If `prove` was set, the step is complete and nothing touches. Nothing there too if parts come so near each other
-  /// that no proof was found.
+  /// Set if `prove` was set, the step is complete and nothing touches; unless parts come so near each other that no
+  /// proof was found.
   std::shared_ptr<const StepProof> proof;
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
-/// below that, and there are fewer than 2^31 cells. Deterministic: the result depends on the input and on `dimension`,
-/// `initial`, `first_only`, `strict`, `max_reports` alone (unless stopped by `stop` or `deadline`), not on the number
-/// of threads. With `prove`, directions are rounded to the bits of short tokens, so `obligations`, `cell_pairs` and
-/// `stages` may differ from those without, and nothing else does. Memory is linear in the mesh and the proof. Throws
-/// std::bad_alloc, and what `progress` throws.
+/// below that, and there are fewer than 2^31 cells. Deterministic: the result depends only on the input and on
+/// `dimension`, `initial`, `first_only`, `strict`, `max_reports` (unless stopped by `stop` or `deadline`), not on the
+/// number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change `obligations`,
+/// `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws std::bad_alloc, and
+/// what `progress` throws.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

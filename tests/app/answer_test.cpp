@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How an answer takes its pairs from the members of a result.
+// Tests how an answer takes its key-value pairs from the members of a result.
 #include <gtest/gtest.h>
 
 #include "report/answer.h"

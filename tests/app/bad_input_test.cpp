@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bad input ends in exit code 3 and one line that names file and place and says what was expected; nothing is written.
+// Tests bad input: exit code 3, one line that names the file, the place and what was expected, and no output files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// Runs it with --json into the folder; expects a refusal whose line contains all of `parts`.
+/// Runs the command with --json into the folder; expects a refusal whose line contains all of `parts`.
 void expect_refusal(const Folder& folder, Arguments arguments, const std::vector<std::string>& parts) {
   const auto before = folder.names();
   arguments.insert(arguments.end(), {"--json", folder.path("result.json")});
@@ -54,7 +54,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 std::string without_end(const std::string& text, std::size_t count) { return text.substr(0, text.size() - count); }
 
-/// A header of about a hundred bytes that promises a thousand million elements.
+/// A header of about a hundred bytes that promises a billion elements.
 std::string huge_promise(const std::string& format) {
   return "ply\nformat " + format +
          " 1.0\nelement vertex 1000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
@@ -105,7 +105,7 @@ TEST_P(BadQueryFiles, AreRefused) {
   expect_refusal(folder, arguments, parts);
 }
 
-/// Rows of a vertex-vertex query in which both points stay where they are, apart.
+/// Rows of a vertex-vertex query in which both points rest apart.
 std::string rows(const std::string& third = "5,1,0,1,0,1,0") {
   return "0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n" + third + "\n1,1,0,1,0,1,0\n";
 }
@@ -124,7 +124,7 @@ const std::vector<BadQueries> bad_queries = {
 INSTANTIATE_TEST_SUITE_P(All, BadQueryFiles, testing::ValuesIn(bad_queries),
                          [](const auto& test) { return test.param.name; });
 
-/// A command line that cannot be; %1 and %2 stand for two good frames.
+/// An invalid command line; %1 and %2 stand for two good frames.
 struct BadLine {
   std::string name;
   Arguments arguments;
@@ -202,7 +202,7 @@ TEST(BadInput, OutputThatCannotBeWrittenIsKnownBeforeTheWorkBegins) {
   const Folder folder;
   const auto a = folder.write("a.ply", two_triangles(1));
   for (const std::string& out : {folder.path("none/result.json"), folder.path("."), std::string("/proc/result.json")}) {
-    // The frames are bad too, which would be said if the output were looked at later.
+    // The frames are bad too, which would be reported if the output were checked later.
     const Process process = run_noli({"verify", a, "/nowhere/frame.ply", "--json", out});
     EXPECT_EQ(process.exit_code, 3);
     EXPECT_NE(process.err.find("--json " + out), std::string::npos) << process.err;

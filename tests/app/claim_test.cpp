@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The claim belongs to who asks: `noli check` accepts no proof of less, and no witness against more, by either checker.
+// Tests that the caller sets the claim: both checkers of `noli check` reject proofs of weaker claims, and witnesses
+// against stronger ones.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -43,7 +44,8 @@ class Claims : public Simulate {
     for (const std::string& field : asked) words.insert(words.end(), {"--require", field});
     return words;
   }
-  /// All that it says; of a rejection that is about no claim, which may be told otherwise, that it is one.
+  /// The comparable output: all of it, except for rejections that are not about the claim. Checkers may word those
+  /// differently, so only the word REJECTED counts.
   static std::string told_by(const Process& process) {
     const std::string line = process.verdict_of_checker();
     if (process.exit_code != 3) {
@@ -53,7 +55,7 @@ class Claims : public Simulate {
     }
     return line.starts_with("REJECTED  the claim: ") ? line : line.substr(0, line.find(' '));
   }
-  /// What the checkers that are there say: the same words.
+  /// Runs all checkers that are built, and expects the same output.
   static Process check(Words words) {
     words.insert(words.begin(), "check");
     const Process plain = run_noli(words);
@@ -71,7 +73,7 @@ class Claims : public Simulate {
     words.insert(words.end(), more.begin(), more.end());
     return check(words);
   }
-  /// Rejected because of this field.
+  /// Expects a rejection because of this field.
   void expect_rejected(const Words& paths, const Words& asked, const std::string& field) const {
     const Process process = check(paths, asked);
     EXPECT_EQ(process.exit_code, 3) << process.out;
@@ -79,7 +81,7 @@ class Claims : public Simulate {
         << process.out << process.err;
     EXPECT_NE(process.out.find("; --require "), std::string::npos) << process.out;
   }
-  /// Rejected by default, and answered so when it is asked for by name.
+  /// Expects a rejection by default, and this answer if the field is required by name.
   void expect_weaker(const Words& paths, const Words& asked, const std::string& field, int code,
                      const std::string& on_the_line) const {
     expect_rejected(paths, {}, field);
@@ -88,18 +90,18 @@ class Claims : public Simulate {
     EXPECT_NE(process.out.find(on_the_line), std::string::npos) << process.out;
   }
   Json asked_claim() const { return Json::parse(read_text(folder.path("claim.json"))); }
-  /// Two triangles with a common corner, which is there twice.
+  /// Two triangles with a common corner that is listed twice.
   Words glued() const {
     const std::string frame =
         ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {-4, 0, 1}, {0, -4, 1}}, {{0, 1, 2}, {3, 4, 5}});
     return frames({frame, frame});
   }
-  /// A vertex without a cell that goes through a triangle.
+  /// A vertex without a cell that passes through a triangle.
   Words particle() const {
     const auto at = [](double z) { return ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}}, {{0, 1, 2}}); };
     return frames({at(1), at(-1)});
   }
-  /// Cuts a block file off behind so many commits.
+  /// Cuts a block file off after `commits` commits.
   static void cut(const fs::path& file, int commits) {
     const std::string bytes = bytes_of(file);
     std::size_t at = 16;
@@ -157,7 +159,7 @@ TEST_F(Claims, ARunThatIsCutOffLacksWindows) {
   }
 }
 
-/// Any line that is left tells of the windows before it.
+/// Any remaining line proves that the windows before it existed.
 TEST_F(Claims, ADamagedLogHidesNoMissingWindows) {
   Json sheet = hanging_sheet();
   sheet["duration"] = 0.2;
@@ -167,7 +169,7 @@ TEST_F(Claims, ADamagedLogHidesNoMissingWindows) {
   std::vector<std::string> lines;
   std::istringstream text(bytes_of(log));
   for (std::string line; std::getline(text, line);) lines.push_back(line);
-  // Without the lines of all windows but the last one, and, then, of none but the end.
+  // First keeps only the line of the last window, then none of the windows' lines.
   const auto keep = [&](const std::vector<std::string>& events) {
     std::ofstream out(log, std::ios::binary);
     for (const std::string& line : lines) {
@@ -225,7 +227,7 @@ TEST_F(Claims, FeaturesOfOneCellWhereTheyWereAsked) {
   expect_rejected(paths, {"strict"}, "strict");
   ASSERT_EQ(prove(paths, {"--strict"}), 0);
   for (const Words& asked : {Words{}, Words{"strict"}}) EXPECT_EQ(check(paths, asked).exit_code, 0);
-  // A face that folds onto a line, beside another one.
+  // A face that folds onto a line, next to another one.
   const auto folding = [](double y) {
     return ply_text({{0, 0, 0}, {2, 0, 0}, {1, y, 0}, {0, 0, 5}, {2, 0, 5}, {1, 1, 6}}, {{0, 1, 2}, {3, 4, 5}});
   };
@@ -305,7 +307,7 @@ TEST_F(Claims, AWitnessOfOneClaimAgainstMergedVertices) {
   expect_rejected(paths, {"merged=1", "cells=" + asked_claim()["cells"].get<std::string>()}, "merged");
 }
 
-/// All that `noli verify` proves, or refutes, `noli check` takes by the claim that was asked; and says which it was.
+/// `noli check` accepts everything that `noli verify` proves or refutes, under the same claim, and reports that claim.
 TEST_F(Claims, AsVerifyWritesThem) {
   const std::vector<Words> all = {{},
                                   {"--static"},
@@ -390,7 +392,7 @@ TEST_F(Claims, AFileThatIsNoClaimIsRefused) {
   }
   EXPECT_EQ(by(with("steps", 2)).exit_code, 3);
   EXPECT_EQ(run_noli({"check", proof(), paths[0], paths[1], "--claim", folder.path("nowhere.json")}).exit_code, 3);
-  // The command line counts before the file.
+  // The command line takes precedence over the file.
   Words words = {"check", proof(), "--claim", folder.write("two.json", with("steps", 2)), "--require", "steps=1"};
   words.insert(words.end(), paths.begin(), paths.end());
   EXPECT_EQ(run_noli(words).exit_code, 0);

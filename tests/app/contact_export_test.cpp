@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli export RESULT.json`: a contact as a grid or as a picture.
+// Tests `noli export RESULT.json`: a contact as a grid or as a picture.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 class ContactExport : public testing::Test {
  protected:
-  /// A result of frames in which the upper triangle goes through the lower one.
+  /// A result of frames in which the upper triangle passes through the lower one.
   std::string result(std::vector<std::string> more = {}) const {
     const std::string path = folder.path("result.json");
     std::vector<std::string> words = {
@@ -40,7 +40,7 @@ class ContactExport : public testing::Test {
   Folder folder;
 };
 
-/// At the time of contact the upper triangle is where the lower one is: 1 for its face, 2 for the other.
+/// At the time of contact the triangles coincide; the upper face has mark 1, the lower one mark 2.
 TEST_F(ContactExport, WritesTheGridAtTheTimeOfContact) {
   result();
   const Process process = export_to("hits.vtu");
@@ -98,7 +98,7 @@ TEST_F(ContactExport, ShowsCellsThatIntersectWhereNoPairOfFeaturesMeets) {
   EXPECT_EQ(marked(process), 2U);
 }
 
-/// A particle is a cell of its own.
+/// Particles are cells too.
 TEST_F(ContactExport, MarksParticles) {
   const auto frame = [&](const std::string& name, const std::string& z) {
     return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 " + z + "\nf 1 2 3\n");
@@ -109,7 +109,7 @@ TEST_F(ContactExport, MarksParticles) {
   EXPECT_EQ(marked(process), 2U);
 }
 
-/// Two faces that share an edge by place alone: with merged vertices both belong to it.
+/// Two faces share an edge only by position: with merged vertices, the edge belongs to both.
 TEST_F(ContactExport, MarksWhatMergedVerticesBelongTo) {
   const auto frame = [&](const std::string& name, const std::string& z) {
     return folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv -1 -1 " + z + "\nv 2 2 " + z +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the command ends when the user, a limit or the machine puts an end to it: never in 0.
+// Tests how the command ends when stopped by the user, a limit or the machine: never with exit code 0.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -116,7 +116,7 @@ TEST(Ending, ATimeLimitAfterAContactLeavesTheContact) {
   const Folder folder;
   const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(-1));
   std::vector<std::string> arguments = {"verify", "--keep-going", "--time-limit", sanitized ? "20s" : "2s"};
-  for (int i = 0; i < 30000; ++i) arguments.push_back(i % 2 == 0 ? a : b);  // four times that long or so
+  for (int i = 0; i < 30000; ++i) arguments.push_back(i % 2 == 0 ? a : b);  // takes about four times as long
   const Json json = json_of(arguments, 1);
   EXPECT_EQ(json["verdict"], "contact");
   EXPECT_EQ(json["complete"], false);
@@ -148,7 +148,7 @@ TEST(Ending, AClosedOutputIsNoSuccess) {
   hung_up.hang_up = true;
   EXPECT_EQ(run_noli({"verify", a, a}, closed).exit_code, 4);
   EXPECT_EQ(run_noli({"verify", a, a}, hung_up).exit_code, 4);
-  // The JSON must not end up where standard output was.
+  // The JSON file must not take the descriptor of standard output.
   EXPECT_EQ(run_noli({"verify", a, a, "--json", folder.path("result.json")}, closed).exit_code, 4);
   EXPECT_EQ(Json::parse(read_text(folder.path("result.json")))["verdict"], "proved");
 }
@@ -181,7 +181,7 @@ TEST(Ending, ALimitIsHeardWhateverSignalsWereKeptFromIt) {
   EXPECT_EQ(info.exit_code, 2) << info.err;
 }
 
-/// Who ignores the ends of its children hands that down, and then they end without a trace.
+/// A process that ignores SIGCHLD passes this on to `noli`, whose children would then vanish without an exit code.
 TEST(Ending, AParentThatIgnoresItsChildrenChangesNothing) {
   const Folder folder;
   const auto a = folder.write("a.ply", sheets(4, 0)), b = folder.write("b.ply", sheets(4, 3));

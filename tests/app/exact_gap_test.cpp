@@ -51,7 +51,7 @@ void expect_root(const ExactGap& gap, unsigned n, unsigned m) {
   EXPECT_FALSE(square_is_below(gap.up_to, n, m));
 }
 
-/// The line from (-1, 1/4) to (1, 1/2) passes the origin at the distance of 3 / sqrt(65).
+/// The line from (-1, 1/4) to (1, 1/2) passes the origin at a distance of 3 / sqrt(65).
 TEST(ExactGap, BetweenBreakpointsIsDecidedInRealNumbers) {
   const WorldLines lines = lines_of({{{0, {-1, 0.25, 0}}, {1, {1, 0.5, 0}}}, resting({0, 0, 0})});
   for (const int dimension : {2, 3}) {
@@ -59,7 +59,8 @@ TEST(ExactGap, BetweenBreakpointsIsDecidedInRealNumbers) {
   }
 }
 
-/// They are nearest at 0.25 s: then the line through (-1, 3/8) and (1, 9/16) passes the other one at 15 / sqrt(1033).
+/// The edges are nearest at 0.25 s, when the line through (-1, 3/8) and (1, 9/16) passes the other one at a distance of
+/// 15 / sqrt(1033).
 TEST(ExactGap, OfEdgesThatCrossAboveEachOther) {
   const WorldLines lines = lines_of({{{0, {-1, 0, 0.75}}, {0.25, {-1, 0, 0.375}}, {1, {-1, 0, 1}}},
                                      {{0, {1, 0, 0.75}}, {0.5, {1, 0, 0.375}}, {1, {1, 0, 1}}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli export RUN --figure`: pictures and numbers.
+// Tests `noli export RUN --figure`: figures and tables.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// A table of numbers under a line of names.
+/// A table of numbers with a header line.
 struct Csv {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
@@ -46,8 +46,8 @@ Csv read_csv(const std::string& path) {
   return csv;
 }
 
-/// How many elements of this name are in a document; -1 if it is no well-formed XML (of what SVG files have: a
-/// declaration, elements, attributes, text with the five entities).
+/// The number of elements with this name in a document; -1 if it is not well-formed XML. Knows what SVG files contain:
+/// a declaration, elements, attributes, text with the five entities.
 int count_elements(const std::string& xml, const std::string& name) {
   std::vector<std::string> open;
   int count = 0;
@@ -115,7 +115,7 @@ TEST_F(Figures, SharesOfStepsAddUpToAHundredPerCent) {
     least = std::min(least, row[smallest]);
   }
   EXPECT_EQ(csv.rows.back()[csv.column("end [s]")], 0.2);
-  EXPECT_LT(least, csv.rows.front()[smallest]);  // layers are quicker than what is elastic
+  EXPECT_LT(least, csv.rows.front()[smallest]);  // layers have shorter steps than elastic forces
   const std::string svg = bytes_of(figure("step-histogram", "steps.svg"));
   EXPECT_GE(count_elements(svg, "polygon"), 3);
   EXPECT_NE(svg.find("step [s]"), std::string::npos);
@@ -166,7 +166,7 @@ TEST_F(Figures, EnergyAndMomentumAreThoseOfTheSeries) {
   EXPECT_EQ(count_elements(bytes_of(figure("momentum", "momentum.svg")), "polyline"), 6);
 }
 
-/// Of a scene with damping, friction, restitution and two scripts, resumed in the middle.
+/// Figures of a scene with damping, friction, restitution and two scripts, resumed in the middle.
 class Books : public Figures {
  protected:
   void SetUp() override {
@@ -181,7 +181,7 @@ class Books : public Figures {
   }
 
   double at(std::size_t window, const std::string& name) const { return energy.rows[window][energy.column(name)]; }
-  /// Of all columns whose names begin so.
+  /// The sum of all columns whose names start with `begin`.
   double sum(std::size_t window, const std::string& begin) const {
     double result = 0;
     for (std::size_t i = 0; i < energy.names.size(); ++i) {
@@ -305,7 +305,7 @@ TEST_F(Figures, BadInputIsRefused) {
 
 TEST_F(Figures, ARunOfNoWindowsHasNone) {
   Json json = falling_triangle();
-  json["window"] = 0.5;  // contact is in the first
+  json["window"] = 0.5;  // contact is in the first window
   ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("run")}).exit_code, 1);
   const Process process = run_noli({"export", run_path("run"), "--figure", "energy", "-o", run_path("a.svg")});
   EXPECT_EQ(process.exit_code, 3);

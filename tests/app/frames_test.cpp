@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which frames were looked at, and in which order: what `noli verify` and others say of names, files and polygons.
+// Tests which frames are read and in which order, and the messages of `noli verify` and others about names, files and
+// polygons.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -37,14 +38,14 @@ class Frames : public testing::Test {
     EXPECT_EQ(process.out, "");
   }
 
-  /// A small triangle over a large one, or beside it.
+  /// A small triangle above a large one, or beside it.
   std::string frame(const std::string& name, double x, double z) const {
     return folder.write(
         name, ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {x - 0.5, -0.5, z}, {x + 0.5, -0.5, z}, {x, 0.5, z}},
                        {{0, 1, 2}, {3, 4, 5}}));
   }
-  /// cloth_0 to cloth_11. The triangle comes from the side and goes down through the other one in step 10. In the order
-  /// in which a shell names them it goes around it.
+  /// cloth_0 to cloth_11. The triangle comes from the side and passes down through the other one in step 10. In the
+  /// shell's order of the files, it goes around the other one.
   Words cloth_in_time() const {
     Words frames;
     for (int k = 0; k < 12; ++k) {
@@ -207,7 +208,7 @@ TEST_F(Frames, NotesOnFramesThatAreMissingDoubleOrEqual) {
   EXPECT_FALSE(has_note(json_of(with({"verify", "--static"}, four), 0), "nothing moves"));
 }
 
-/// A bent quad, and a point that comes down between the two ways to cut it.
+/// A bent quad, and a point that comes down between its two triangulations.
 class Polygons : public Frames {
  protected:
   std::string quad(const std::string& name, double z, const std::string& face) const {
@@ -220,7 +221,7 @@ TEST_F(Polygons, AnotherFirstCornerIsAnotherQuestion) {
   const auto ask = [&](const std::string& face, int exit_code) {
     return json_of({"verify", quad("0.obj", 3, face), quad("1.obj", 1, face)}, exit_code);
   };
-  // The diagonal is at z = 0 one way, at z = 2 the other, and the point comes down to 1.
+  // One diagonal is at z = 0, the other at z = 2, and the point comes down to 1.
   const Json apart = ask("f 1 2 3 4", 0), touching = ask("f 2 3 4 1", 1);
   for (const Json& json : {apart, touching}) {
     EXPECT_EQ(json["statement"]["polygons"], rule);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Help: where it is found, and in which order and width it stands.
+// Tests where help is available, and its order and width.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Arguments with(Arguments words, const std::string& word) {
 
 class HelpOf : public testing::TestWithParam<Arguments> {};
 
-/// Columns of UTF-8.
+/// The width of UTF-8 text in columns.
 std::size_t width(const std::string& line) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -57,7 +57,7 @@ TEST_P(HelpOf, IsTheSameByHelpAndByItsOption) {
   EXPECT_EQ(process.out, run_noli(with(GetParam(), "--help")).out);
 }
 
-/// Examples are commands that the parser takes: none of them ends in a complaint about the command line.
+/// The parser accepts all examples: none ends in an error about the command line.
 TEST_P(HelpOf, HasExamplesThatCanBeParsed) {
   const std::string help = run_noli(with(GetParam(), "--help")).out;
   std::istringstream lines(help.substr(help.find("\nExamples:\n") + 11));
@@ -66,7 +66,7 @@ TEST_P(HelpOf, HasExamplesThatCanBeParsed) {
     std::istringstream words(command);
     Arguments arguments;
     for (std::string word; words >> word;) arguments.push_back(word);
-    arguments.emplace_back("--nonsense");  // is complained of when there is nothing else
+    arguments.emplace_back("--nonsense");  // reported only if nothing else is wrong
     const Process process = run_noli(arguments);
     const bool file_is_missing = process.err.find(" does not exist: ") != std::string::npos;
     const bool only_nonsense = process.err.find("has no option --nonsense") != std::string::npos;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli verify --ignore`: groups of vertices whose cells are not compared.
+// Tests `noli verify --ignore`: groups of vertices whose cells are not compared.
 #include <gtest/gtest.h>
 
 #include "tests/app/process.h"
@@ -12,7 +12,7 @@ namespace {
 
 class Ignore : public testing::Test {
  protected:
-  /// A triangle comes down through another and, a moment later, through a third.
+  /// A triangle falls through another one and, a moment later, through a third.
   std::vector<std::string> frames() const {
     std::vector<std::string> paths;
     for (const double height : {1.0, -2.0}) {
@@ -57,7 +57,7 @@ TEST_F(Ignore, IsPartOfTheClaim) {
             0);
   std::vector<std::string> arguments = {"check", proof};
   for (const auto& frame : frames()) arguments.push_back(frame);
-  EXPECT_EQ(run_noli(arguments).exit_code, 3);  // nobody has asked to leave something out
+  EXPECT_EQ(run_noli(arguments).exit_code, 3);  // exclusions were not requested
   arguments.insert(arguments.end(), {"--claim", folder.path("claim.json")});
   const Process plain = run_noli(arguments);
   EXPECT_EQ(plain.exit_code, 0) << plain.out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where results end: the verdict in the last line for people, one line of pairs for programs, nothing with -q.
+// Tests the end of the output: the verdict in the last line for people, one line of pairs for programs, nothing with
+// -q.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -14,7 +15,7 @@ namespace {
 
 class LastLine : public Simulate {
  protected:
-  /// `verify` of the upper triangle at these heights, in files a.ply, b.ply, ...
+  /// A `verify` command for the upper triangle at these heights, in files a.ply, b.ply, ...
   std::vector<std::string> verify(const std::vector<double>& heights, std::vector<std::string> more = {}) const {
     more.insert(more.begin(), "verify");
     char name = 'a';

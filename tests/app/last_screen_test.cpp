@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// On a terminal of 80 columns and 24 lines, what is still to be seen when a command has ended: the verdict, its place,
-// and what to do next.
+// Tests what is visible on a terminal of 80 columns and 24 lines when a command has ended: the verdict, its place, and
+// what to do next.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// The last 24 rows of 80 columns, of which a shell takes the last one for its prompt.
+/// The last 24 rows of 80 columns, without the last one, which holds the shell's prompt.
 std::string last_screen(const Process& process) {
   std::vector<std::string> rows;
   std::istringstream lines(process.err + process.out);
@@ -38,7 +38,7 @@ std::string last_screen(const Process& process) {
 
 class LastScreen : public Simulate {
  protected:
-  /// A triangle that goes up and down through another one: contacts in every step.
+  /// A triangle that moves up and down through another one, with contacts in every step.
   std::vector<std::string> to_and_fro(int count, std::vector<std::string> more) const {
     more.insert(more.begin(), "verify");
     for (int k = 0; k < count; ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time limits and interruptions: every command hears them soon, wherever it is, and a limit that is not reached changes
-// nothing.
+// Tests time limits and interruptions: every command reacts soon, whatever it is doing, and a limit that is not reached
+// changes nothing.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -13,7 +13,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// Every input here takes many times as long.
+/// Without a stop, every input here would take many times as long.
 constexpr double soon = 3;  ///< seconds; loaded machines are slow
 
 struct Timed {
@@ -33,7 +33,7 @@ std::string pipe_in(const Folder& folder, const std::string& name) {
   return path;
 }
 
-/// Its generator makes 4 million vertices, and its forces many times as much.
+/// A scene whose generator makes 4 million vertices, and many times as many forces.
 Json large_scene() {
   Json json = Json::parse(R"({
       "noli_scene": 1, "duration": 1, "window": 0.01, "gravity": [0, 0, -9.81],
@@ -43,7 +43,7 @@ Json large_scene() {
   return json;
 }
 
-/// A script moves one of two tools of many cells each: whether they pinch is looked for among all pairs.
+/// A script moves one of two tools with many cells each; the test for pinching examines all pairs.
 Json scene_of_tools() {
   const Json mesh = {{"grid", {{"size", {1, 1}}, {"cells", {150, 150}}}}};
   const Json material = {{"young", 2e4}, {"density", 200}, {"thickness", 0.001}};
@@ -61,19 +61,19 @@ Json scene_of_tools() {
   return json;
 }
 
-/// A run of one window whose frames can be sampled as densely as anybody likes.
+/// A run of one window, whose frames can be sampled at any density.
 std::string small_run(const Folder& folder) {
   const std::string scene = folder.write("bar.json", resting_bar(1, 1).dump()), run = folder.path("bar");
   EXPECT_EQ(run_noli({"simulate", scene, "-o", run}).exit_code, 0);
   return run;
 }
 
-/// What takes longer than anybody waits.
+/// A command that would take hours.
 struct Endless {
   const char* name;
   std::function<std::vector<std::string>(const Folder&)> arguments;
-  bool tells = true;     ///< ends with a verdict; else with a message alone
-  bool reports = false;  ///< asks for a page
+  bool tells = true;     ///< ends with a verdict; else only with a message
+  bool reports = false;  ///< needs `noli report`
 };
 
 void PrintTo(const Endless& endless, std::ostream* out) { *out << endless.name; }
@@ -253,7 +253,7 @@ TEST_F(Limits, AFileWithoutAnEndIsRefused) {
     EXPECT_LT(seconds, soon);
     EXPECT_LT(process.peak_bytes, 1'000'000'000u);
   }
-  // A file that is larger than memory, of nothing.
+  // An empty sparse file that is larger than memory.
   const auto huge = folder.write("huge.ply", two_triangles(1));
   fs::resize_file(huge, std::uintmax_t{1} << 42);
   const auto [process, seconds] = timed({"info", huge});
@@ -262,7 +262,7 @@ TEST_F(Limits, AFileWithoutAnEndIsRefused) {
   EXPECT_LT(seconds, soon);
 }
 
-/// `noli` with a checker that is a script.
+/// `noli` with a script as its checker.
 class OtherChecker : public Limits {
  protected:
   ProcessOptions with(const std::string& script) const {

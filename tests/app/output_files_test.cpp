@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rule for all outputs (app/output_files.h), command by command: what exists stays, unless --force; what is read,
-// what belongs to a run, and what another output goes to stays in any case.
+// Tests the rule for all outputs (app/output_files.h) with each command: existing files are kept unless --force is
+// given. Inputs, files of runs, and files of other outputs are always kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Version, help, and where results are written.
+// Tests version, help, and where results are written.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

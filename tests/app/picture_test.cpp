@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli export RUN --at`: pictures.
+// Tests `noli export RUN --at`: pictures.
 #include "report/figures/picture.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::array<int, 3> pixel(const Picture& picture, double right, double down) {
 bool is_white(const std::array<int, 3>& p) { return p == std::array<int, 3>{255, 255, 255}; }
 bool is_grey(const std::array<int, 3>& p) { return !is_white(p) && std::abs(p[0] - p[2]) < 12; }
 
-/// A square in the plane of x and z, as two triangles, its corner at x, y.
+/// Adds a square in the plane of x and z, as two triangles, with its corner at x, y.
 void add_square(Frame& frame, double x, double y, double size) {
   const auto first = static_cast<VertexId>(frame.mesh.vertex_count);
   frame.mesh.vertex_count += 4;
@@ -39,8 +39,8 @@ const View front{{0, -1, 0}, {0, 0, 1}, 90};
 
 TEST(Picture, MarksStandBeforeAllElse) {
   Frame frame;
-  add_square(frame, 0, 0, 1);  // nearer to the eye
-  add_square(frame, 0, 1, 1);  // hidden by it
+  add_square(frame, 0, 0, 1);  // nearer to the viewer
+  add_square(frame, 0, 1, 1);  // hidden by the first
   View view = front;
   const std::vector<bool> fixed(frame.mesh.vertex_count, false);
   const std::array<int, 3> plain = pixel(draw(frame, fixed, view), 0.7, 0.7);
@@ -79,7 +79,7 @@ TEST(Picture, TheNearerOfTwoIsSeen) {
   frame.positions = {};
   frame.mesh = {};
   add_square(frame, 0, 0, 1);
-  add_square(frame, 0.25, -1, 0.5);  // before it
+  add_square(frame, 0.25, -1, 0.5);  // in front of it
   const auto covering = pixel(draw(frame, free, front), 0.4, 0.55);
   EXPECT_GT(covering[0], covering[2]) << "the second is orange";
 }
@@ -176,7 +176,7 @@ TEST_F(ExportPicture, HasTheSizeAndTheBodyThatAreAskedFor) {
   EXPECT_GT(of_body["near"].size(), of_body[""].size()) << "a sheet that fills the picture has more in it";
 }
 
-/// A sheet that falls: in a film it comes down, where pictures of single times have it in the middle.
+/// A falling sheet moves down in a film, while pictures of single times center it.
 TEST_F(ExportPicture, AFilmHasOneViewOfAllFrames) {
   for (const char* record : {"full", "frames"}) {
     Json json = hanging_sheet();

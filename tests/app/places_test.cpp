@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where commands write: a place that cannot be written to is known before the work begins; what is there is not mixed
-// up.
+// Tests where commands write: they detect unwritable places before the work begins, and do not mix new and old files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +40,7 @@ TEST_F(Places, ExportLeavesNoFilesOfALongerOne) {
   EXPECT_EQ(run_noli(arguments("8", "vtu")).exit_code, 3);
 }
 
-/// A command that writes to a place, with what else it is given.
+/// A command that writes to a place, with its other arguments.
 struct Writer {
   std::vector<std::string> before, after;
   bool folder = false;  ///< writes a folder
@@ -94,7 +93,7 @@ TEST_F(Places, ThatCannotBeWrittenToAreKnownBeforeTheWorkBegins) {
   const Process frame = run_noli({"export", run_path("run"), "--force", "-o", run_path("there/%d.ply")});
   EXPECT_EQ(frame.exit_code, 3);
   EXPECT_NE(frame.err.find("there/0.ply: is a folder; expected a file"), std::string::npos) << frame.err;
-  // What is there and cannot be gone on with.
+  // An existing run that cannot be resumed.
   fs::permissions(run_path("run/trajectory.blocks"), fs::perms::owner_read);
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume"}, obey).exit_code, 3);
   fs::permissions(run_path("run/trajectory.blocks"), fs::perms::owner_read | fs::perms::owner_write);

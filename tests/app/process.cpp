@@ -54,7 +54,7 @@ void set_up_child(const ProcessOptions& options, const Pipe& out, const Pipe& er
   } else {
     ::dup2(out.write_end(), STDOUT_FILENO);
   }
-  // Root may do without the capability; nobody else has it.
+  // Only root has this capability, and may drop it.
   if (options.obey_permissions && ::geteuid() == 0 && ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0) != 0) {
     ::_exit(126);
   }
@@ -83,7 +83,7 @@ pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& opt
   ::_exit(127);
 }
 
-/// Whether the process has a handler for the signal by now.
+/// Whether the process has installed a handler for the signal.
 bool catches(pid_t process, int signal) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string word; status >> word;) {
@@ -108,7 +108,7 @@ bool read_some(int end, std::string& text) {
   return count > 0;
 }
 
-/// Both pipes until both are closed, in whatever order they fill.
+/// Reads both pipes until both are closed, in any order.
 void read_all(const Pipe& out, const Pipe& err, Process& process) {
   std::array<struct pollfd, 2> ends = {{{out.read_end(), POLLIN, 0}, {err.read_end(), POLLIN, 0}}};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {

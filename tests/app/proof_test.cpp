@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs of frames from end to end: `noli verify --proof` writes them, `noli check` has the checker look at them.
+// Tests proofs of frames from end to end: `noli verify --proof` writes them, `noli check` checks them.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -38,14 +38,14 @@ class Proof : public testing::Test {
     options.insert(options.end(), more.begin(), more.end());
     return verify(frames, options);
   }
-  /// Asked for what `noli verify` claimed.
+  /// Runs `noli check` with the claim of `noli verify`.
   Process check_by(std::vector<std::string> arguments, const std::vector<std::string>& frames) const {
     if (fs::exists(claim())) arguments.insert(arguments.end(), {"--claim", claim()});
     arguments.insert(arguments.begin(), {"check", proof()});
     arguments.insert(arguments.end(), frames.begin(), frames.end());
     return run_noli(arguments);
   }
-  /// What the checkers that are there say of the proof: all the same.
+  /// Runs all checkers that are built, and expects the same answer.
   Process check(const std::vector<std::string>& frames, std::vector<std::string> more = {}) const {
     const Process plain = check_by(more, frames);
     if (!verified_checker_is_there()) return plain;
@@ -106,7 +106,7 @@ TEST_F(Proof, CellsThatIntersectFromTheBeginningHaveAWitness) {
 TEST_F(Proof, IsOfItsFramesInTheirOrderAlone) {
   const auto frames = triangles({1, 0.5, 0.25});
   ASSERT_EQ(prove(frames).exit_code, 0);
-  fs::remove(claim());  // which asks for two steps by name: then a third is not looked at
+  fs::remove(claim());  // it requires two steps, and then a third is not read
   EXPECT_EQ(check(frames).exit_code, 0);
   const std::vector<std::vector<std::string>> others = {
       {frames[1], frames[0], frames[2]},
@@ -254,7 +254,7 @@ TEST_F(Proof, ACheckerIsNotTrustedBlindly) {
   };
   const std::string real = fs::path(NOLI_COMMAND).parent_path() / "noli_check";
   EXPECT_EQ(verify_with("exec " + real + " \"$@\"").first, 0);
-  // The answer is about another claim, or about none.
+  // Checkers that answer about another claim, or about none.
   for (const char* const change :
        {"s/motion=linear/motion=rest/", "s/dimension=3/dimension=2/", "s/steps=1/steps=2/", "s/strict=0/strict=1/",
         "s/points=0/points=1/", "s/distance=0/distance=1/", "s/ring=1/ring=2/", "s/merged=0/merged=1/",
@@ -366,7 +366,7 @@ TEST_F(ProofOfRun, GoesOnWithTheRun) {
   const std::string file = scene(hanging_sheet());
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole")}).exit_code, 0);
   const std::string whole = bytes_of(run_path("whole") + "/proof.blocks");
-  // Stopped at the same window, the proof ends there, or lacks windows, or is not there at all.
+  // The run stops at the same window; the proof ends there, lacks windows, or has no content.
   for (const std::uintmax_t size : {whole.size(), whole.size() / 2, std::size_t{100}, std::size_t{3}}) {
     ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("part"), "--until", "0.1", "--force"}).exit_code, 0);
     EXPECT_EQ(run_noli({"check", run_path("part")}).exit_code, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli report`: what is in a page. How it looks in a browser is tested by viewer/test.
+// Tests the content of pages of `noli report`. viewer/test tests their look in a browser.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -30,7 +30,7 @@ class Report : public Simulate {
     if (!built_) GTEST_SKIP() << "skipped: this noli was built without reports (NOLI_WITH_REPORT)";
   }
 
-  /// Where a page was written.
+  /// Writes a page and returns its path.
   std::string write(std::vector<std::string> inputs, int exit_code = 0, const std::string& complaint = "") {
     std::string page = folder.path("page.html");
     inputs.insert(inputs.begin(), "report");
@@ -53,14 +53,14 @@ class Report : public Simulate {
     return json;
   }
 
-  /// The run of falling_triangle(), which ends in contact at 0.3125 s, and what verify says of its windows.
+  /// The run of falling_triangle(), which ends in contact at 0.3125 s, and the result of verifying its windows.
   std::vector<std::string> run_with_contact() {
     const std::string run = run_path("run"), result = folder.path("run.json");
     EXPECT_EQ(run_noli({"simulate", scene(falling_triangle()), "-o", run}).exit_code, 1);
     EXPECT_EQ(run_noli({"verify", run, "--force", "--json", result}).exit_code, 0);
     return {run, result};
   }
-  /// Changes the last line of the log of a run, the one of its end.
+  /// Changes the last line of the log of a run, which records its end.
   static void change_end(const std::string& run, const Json& changes) {
     const fs::path log = fs::path(run) / "log.jsonl";
     const std::string before = bytes_of(log);
@@ -77,7 +77,7 @@ class Report : public Simulate {
   static bool says(const Json& json, const std::string& text) {
     return json["verdict"]["lines"].dump().find(text) != std::string::npos;
   }
-  /// What the statement of a page has under this name; "" if it is not there.
+  /// The value in the statement of a page under this name; "" if there is none.
   static std::string stated(const Json& json, const std::string& name) {
     for (const Json& pair : json["statement"]) {
       if (pair[0] == name) return pair[1];
@@ -249,7 +249,7 @@ TEST_F(Report, HasEveryConditionOfTheStatement) {
   const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
   const std::string result = verdict(frames, 1);
   const Json json = page({result});
-  // And two inputs, and who decided and who checked.
+  // Plus two inputs, and the programs that decided and checked.
   EXPECT_EQ(json["statement"].size(), Json::parse(bytes_of(result))["statement"].size() + 4);
   EXPECT_NE(stated(json, "decided by").find("noli "), std::string::npos);
   EXPECT_NE(stated(json, "checked by").find("noli_check "), std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small input for the command: a folder that vanishes with the test, and meshes that are known by heart.
+// Small inputs for the command: a folder that is removed after the test, and simple meshes with known contacts.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace noli::app_tests {
 using test::read_text;
 using test::real_data;
 
-/// A temporary folder whose paths are words of a command line.
+/// A temporary folder whose paths are strings for a command line.
 class Folder {
  public:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -25,7 +25,7 @@ class Folder {
   std::string write(const std::string& name, std::string_view content) const {
     return folder_.write(name, content).string();
   }
-  /// Names of the files in it, sorted.
+  /// Names of its files, sorted.
   std::vector<std::string> names() const { return folder_.names(); }
 
  private:
@@ -35,12 +35,12 @@ class Folder {
 /// An ASCII PLY file of these points, with these faces.
 std::string ply_text(const std::vector<Position>& points, const std::vector<std::array<VertexId, 3>>& faces);
 
-/// Two triangles in planes z = 0 and z = height; the upper one, vertices 3 to 5, lies well inside the outline of the
-/// lower one. When it passes through z = 0 its three vertices meet the lower face, and nothing else meets.
+/// Two triangles in the planes z = 0 and z = height. The upper one, vertices 3 to 5, lies well inside the outline of
+/// the lower one. When it passes through z = 0, only its three vertices meet the lower face.
 std::string two_triangles(double height);
 
-/// A triangle, and a second one that stands in its middle like a sail through a deck: no vertex meets a face, no edge
-/// an edge.
+/// A triangle, and a second one that stands in its middle like a sail through a deck: no vertex meets a face, and no
+/// edge meets an edge.
 std::string sail_through_deck();
 
 /// Two sheets of about `faces` faces in all that move together and never touch. Binary PLY.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Results against their published schemas, judged by a validator that is not ours (python3-jsonschema).
+// Tests results against their published schemas with an independent validator (python3-jsonschema).
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@ namespace {
 
 class Schema : public Simulate {
  protected:
-  /// What the validator says of a document; "" if nothing is wrong with it.
+  /// The validator's complaint about a document; "" if it is valid.
   std::string complaint(const std::string& schema, const std::string& document) const {
     const std::string file = folder.write("document.json", document);
     const std::string printed = folder.write("schema.json", run_noli({"schema", schema}).out);
@@ -24,7 +24,7 @@ class Schema : public Simulate {
     return code == 0 ? "" : words + " (exit " + std::to_string(code) + ")";
   }
 
-  /// The result of a command has the schema that it names.
+  /// Expects that the result of a command is valid under the schema that it names.
   Json expect_valid(const std::string& schema, std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--json", "-"});
     const Process process = run_noli(arguments);

@@ -13,7 +13,7 @@ namespace {
 
 using Places = std::vector<Position>;
 
-/// A sheet of n by m squares; returns the number of its first vertex.
+/// Adds a sheet of n by m squares; returns the number of its first vertex.
 VertexId add_sheet(Mesh& mesh, std::uint32_t n, std::uint32_t m) {
   const auto first = static_cast<VertexId>(mesh.vertex_count);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -27,7 +27,7 @@ VertexId add_sheet(Mesh& mesh, std::uint32_t n, std::uint32_t m) {
   return first;
 }
 
-/// A wave of height 1 and period 1, smooth, from + - * / alone.
+/// A smooth wave of height 1 and period 1 that only uses + - * /.
 double wave(double s) {
   const double u = s - std::floor(s);
   return 16 * u * u * (1 - u) * (1 - u);
@@ -41,8 +41,8 @@ void place_sheet(Places& frame, std::uint32_t n, std::uint32_t m, const At& at) 
   }
 }
 
-/// `count` sheets of n by n squares above each other at a distance of `gap` squares; they wave, and each slides over
-/// the one below by `slide` squares a frame.
+/// `count` sheets of n by n squares above each other, `gap` squares apart. They wave, and each slides over the one
+/// below by `slide` squares per frame.
 Sequence sliding(const std::string& name, std::uint32_t n, int count, int frames, double gap, double slide) {
   Sequence s{name, {}, {}};
   for (int k = 0; k < count; ++k) add_sheet(s.mesh, n, n);
@@ -59,8 +59,8 @@ Sequence sliding(const std::string& name, std::uint32_t n, int count, int frames
   return s;
 }
 
-/// A ribbon around an axis, turned by `turns` quarter turns per unit of length at the end of the sequence. Directions
-/// are points of a diamond, so nothing but + - * / is used.
+/// A ribbon around an axis, twisted by `turns` quarter turns at the end of the sequence. Directions are points of a
+/// diamond, so only + - * / are used.
 Sequence twisted(const std::string& name, std::uint32_t n, int frames, double turns) {
   Sequence s{name, {}, {}};
   add_sheet(s.mesh, n, 2);
@@ -116,7 +116,7 @@ Sequence falling_stack(const std::string& name, int count, int frames, double ga
   return s;
 }
 
-/// A triangle that comes down to `gap` above another one at the end of its way, `shift` being where both are.
+/// A triangle that comes down to `gap` above another one; both are at an offset of `shift`.
 Sequence near_miss(const std::string& name, double gap, double shift) {
   Sequence s{name, {6, {{0, 1, 2}, {3, 4, 5}}, {}, {}}, {}};
   const double end = gap > 0 ? gap : std::nextafter(shift, shift + 1) - shift;
@@ -131,7 +131,7 @@ Sequence near_miss(const std::string& name, double gap, double shift) {
   return s;
 }
 
-/// Two crossed edges that turn past each other with a gap of `gap`.
+/// Two crossed edges that rotate past each other at a distance of `gap`.
 Sequence passing_edges(const std::string& name, double gap) {
   Sequence s{name, {4, {}, {{0, 1}, {2, 3}}, {}}, {}};
   s.frames.push_back({{-1, -1, 0}, {1, 1, 0}, {-1, 1, gap}, {1, -1, 1}});
@@ -192,7 +192,7 @@ Sequence with_option(Sequence s, const std::string& name, const std::vector<std:
   return s;
 }
 
-/// All vertices of each face for itself, so that only merging makes it one mesh.
+/// Gives each face its own vertices, so that only merging makes it one mesh.
 Sequence with_seams(Sequence s, const std::string& name) {
   Sequence seamed{name, {}, std::vector<Places>(s.frames.size()), {"--merge-identical"}};
   for (const auto& face : s.mesh.faces) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sequences of frames that are known to be free of contact, or known not to be, for the tests of proofs.
+// Builds sequences of frames with or without contact, as known by construction, for the tests of proofs.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace noli::app_tests {
 
-/// A mesh, and where its vertices are in each frame.
+/// A mesh, and the positions of its vertices in each frame.
 struct Sequence {
   std::string name;
   Mesh mesh;
@@ -19,15 +19,15 @@ struct Sequence {
   std::vector<std::string> options = {};  ///< of `noli verify`
 };
 
-/// At least thirty, none of which has a contact: sheets that slide and wave, rods that twist, stacks that fall, near
-/// misses down to one unit in the last place, in the plane, loose edges and points, 2 to 200 frames. Coordinates are
-/// made with + - * / alone.
+/// At least thirty sequences without contact: sheets that slide and wave, rods that twist, stacks that fall, near
+/// misses down to one unit in the last place, motions in the plane, loose edges and points, 2 to 200 frames.
+/// Coordinates are computed with only + - * /.
 std::vector<Sequence> untouched_sequences();
 
-/// The same in large: about so many faces.
+/// A large sequence without contact, with about `faces` faces.
 Sequence large_sequence(std::size_t faces);
 
-/// Writes the frames as ASCII PLY with as many digits as it takes and returns their paths.
+/// Writes the frames as ASCII PLY with enough digits to be exact; returns their paths.
 std::vector<std::string> write_frames(const Sequence& sequence,
                                       const std::function<std::string(const std::string&, const std::string&)>& write);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whoever follows a tutorial of docs/, or the README, sees what it says.
+// Tests that following a tutorial of docs/, or the README, gives the output shown there.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -43,7 +43,7 @@ TEST(Tutorials, Prove) {
   expect_tutorial("docs/prove.md", folder.path("."));
 }
 
-/// Its commands are for the folder of the sources.
+/// The README's commands run in the source folder.
 TEST(Tutorials, Readme) {
   const Folder folder;
   for (const char* const name : {"examples", "scenes"}) {

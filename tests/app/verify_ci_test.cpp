@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What continuous integration reads: JUnit files and annotations.
+// Tests the output for continuous integration: JUnit files and annotations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

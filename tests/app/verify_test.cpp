@@ -181,12 +181,12 @@ TEST_F(Verify, TakesASingleFrameAtRest) {
   EXPECT_EQ(json["contacts"], vertex_face_contacts(3));
   EXPECT_EQ(json["first"]["kind"], "persistent");
   EXPECT_EQ(json["first_time"], 0.0);
-  // The same frame is flat: in its plane one face covers the other, and no vertex touches an edge.
+  // The same frame is flat: in its plane, one face covers the other, but no vertex touches an edge.
   const Json flat = json_of({"verify", touching, "--static"}, 1);
   EXPECT_EQ(flat["statement"]["dimension"], 2);
   EXPECT_EQ(flat["initial_intersections"], 1);
   EXPECT_EQ(json_of({"verify", pierced, "--static"}, 1)["initial_intersections"], 1);
-  // Intersections of every frame count, not only of the first.
+  // Intersections in every frame count, not only in the first.
   const Json later = json_of({"verify", apart, pierced, apart, "--static", "--keep-going"}, 1);
   EXPECT_EQ(later["steps"], 3);
   EXPECT_EQ(later["initial_intersections"], 1);
@@ -213,7 +213,7 @@ TEST_F(Verify, TakesLooseVerticesAsPointsWhenAsked) {
 }
 
 TEST_F(Verify, MergesVerticesThatAreTheSameThroughoutWhenAsked) {
-  // Two triangles side by side whose common edge has its vertices twice.
+  // Two adjacent triangles whose common edge has duplicate vertices.
   const std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2}, {3, 4, 5}};
   const auto a =
       folder.write("a.ply", ply_text({{0, 0, 0}, {0, 2, 0}, {2, 1, 0}, {0, 0, 0}, {0, 2, 0}, {-2, 1, 1}}, faces));

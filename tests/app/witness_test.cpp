@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contacts at the limits of doubles: `noli verify` has a witness for each, which both checkers take.
+// Tests contacts at the limits of double: `noli verify` writes a witness for each, which both checkers accept.
 #include <gtest/gtest.h>
 
 #include "tests/app/process.h"
@@ -16,7 +16,7 @@ class ContactWitness : public testing::Test {
     return folder.write(name + ".obj", vertices + cells);
   }
 
-  /// There is a contact, with a witness that both checkers take.
+  /// Expects a contact with a witness that both checkers accept.
   void expect_witness(const std::vector<std::string>& frames, const std::vector<std::string>& options = {}) const {
     const std::string proof = folder.path("proof.noli");
     std::vector<std::string> words = {"verify", "--force", "--proof", proof};
@@ -42,8 +42,8 @@ class ContactWitness : public testing::Test {
   Folder folder;
 };
 
-/// The point passes the end of the edge within the last ulp of the step; at its end the three lie on one line, so the
-/// determinant vanishes there too.
+/// The point passes the end of the edge within the last ulp of the step. At the end of the step the three points are
+/// collinear, so the determinant vanishes there too.
 TEST_F(ContactWitness, InTheLastUlpBeforeARootAtTheEnd) {
   for (const std::string last : {"6e-17", "5e-324", "1e-300"}) {
     const auto begin = frame("begin", "v 0 0 0\nv 1 1 0\nv -1 0 0\n", "l 1 2\n"),
@@ -53,7 +53,7 @@ TEST_F(ContactWitness, InTheLastUlpBeforeARootAtTheEnd) {
   }
 }
 
-/// In space: the point comes to the edge of a face of which another corner lands at the end.
+/// In space: the point reaches the edge of a face, and another corner of the face lands at the end of the step.
 TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
   const auto begin = frame("begin", "v 0 -1 0\nv 0 1 0\nv 1 0 1\nv -1 0 0\n", "f 1 2 3\np 4\n"),
              end = frame("end", "v 0 -1 0\nv 0 1 0\nv 1 0 0\nv 6e-17 0 0\n", "f 1 2 3\np 4\n");
@@ -61,8 +61,8 @@ TEST_F(ContactWitness, InTheLastUlpOfAFaceThatLands) {
   expect_witness({end, begin});
 }
 
-/// Greatest doubles beside the least ones: a unit for all of them makes integers of 2,100 bits, of which weights are
-/// products.
+/// With the greatest and the least doubles together, a common unit makes integers of 2,100 bits, and weights are
+/// products of these.
 TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
   expect_witness({frame("a",
@@ -75,8 +75,8 @@ TEST_F(ContactWitness, OfEdgesAtTheGreatestDoubles) {
                         cells)});
 }
 
-/// These are apart, but some direction has to have more bits than a proof has room for, or the time has to be cut into
-/// shorter pieces.
+/// These edges stay apart. Either a direction needs more bits than a proof can hold, or time must be split into shorter
+/// pieces.
 TEST_F(ContactWitness, ThereIsNoneOfEdgesThatAreApartAtTheGreatestDoublesSlow) {
   const std::string cells = "l 1 2\nl 3 4\n";
   const std::string begin = frame("a",
@@ -104,7 +104,7 @@ TEST_F(ContactWitness, OfAVertexAndAFaceAtTheGreatestDoubles) {
              cells)});
 }
 
-/// Coordinates of 1e308 have differences that are no doubles.
+/// Differences of coordinates of 1e308 overflow.
 TEST_F(ContactWitness, OfTheLeastDistanceAtTheGreatestDoubles) {
   const std::string cells = "l 1 2\nl 3 4\n";
   const std::string a =

@@ -19,7 +19,7 @@ std::size_t depth(const std::string& line) {
   return marks != std::string::npos && line[marks] == ' ' ? marks : 0;
 }
 
-/// All of a text, if `end` is not in it.
+/// The text before `end`; all of it if it does not contain `end`.
 std::string up_to(const std::string& text, const std::string& end) { return text.substr(0, text.find(end)); }
 
 std::string last_line(const std::string& text) {
@@ -40,14 +40,14 @@ std::string block_text(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// The lines of a fenced block, up to its end.
+/// The remaining lines of a fenced block.
 std::vector<std::string> rest_of_block(std::istream& page) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(page, line) && line != "```";) lines.push_back(line);
   return lines;
 }
 
-/// Nothing if the block names no file.
+/// The file of a block; empty if the block names no file.
 std::vector<TutorialStep> file_of(const std::vector<std::string>& block) {
   const std::string caption = ":caption: ";
   if (block.size() < 2 || !block[0].starts_with(caption) || !block[1].empty()) return {};
@@ -78,7 +78,7 @@ bool lines_are_like(std::span<const std::string> expected, std::span<const std::
   return false;
 }
 
-/// The compiler that the tests are built with, where a tutorial says `cc`.
+/// Replaces `cc` in a tutorial with the compiler of the tests.
 std::string with_compiler(const std::string& line) {
   return line.starts_with("cc ") ? std::string(NOLI_C_COMPILER) + line.substr(2) : line;
 }
@@ -154,7 +154,7 @@ bool is_like(const std::string& expected, const std::string& line) {
   const std::size_t first = expected.find(any);
   if (first == std::string::npos) return line == expected;
   if (!line.starts_with(expected.substr(0, first))) return false;
-  std::size_t at = first;  // in the line: all before it is matched
+  std::size_t at = first;  // the line is matched up to here
   std::size_t begin = first + any.size();
   for (std::size_t end = expected.find(any, begin); end != std::string::npos; end = expected.find(any, begin)) {
     const std::string part = expected.substr(begin, end - begin);

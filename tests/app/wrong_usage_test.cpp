@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whoever mistypes a command line is told in one line what was meant, or what to write.
+// Tests the messages for mistyped command lines: one line that says what was probably meant, or what to write.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -34,7 +34,7 @@ class StringSink : public Sink {
   std::string& bytes_;
 };
 
-/// Two loose edges, of which the second comes nearer to the first.
+/// Two loose edges; the second comes nearer to the first.
 FrameMotion two_edges() {
   FrameMotion motion;
   motion.mesh = {4, {}, {{0, 1}, {2, 3}}, {}};
@@ -42,8 +42,8 @@ FrameMotion two_edges() {
   return motion;
 }
 
-/// The worked example of proofs/FORMAT.md, but with the step in halves, and the direction of the second in another
-/// form.
+/// The worked example of proofs/FORMAT.md, but with the step in two halves; the second half encodes its direction in
+/// another form.
 ProofCase example() {
   const FrameMotion motion = two_edges();
   const std::vector<std::uint32_t> labels(2, 0);
@@ -66,7 +66,7 @@ ProofCase example() {
 
 using Answer = ProofAnswer (*)(const ProofFiles& files);
 
-/// A checker that is a function.
+/// A checker implemented by a function.
 class FakeChecker : public ProofChecker {
  public:
   explicit FakeChecker(Answer answer) : answer_(answer) {}
@@ -76,13 +76,13 @@ class FakeChecker : public ProofChecker {
   Answer answer_;
 };
 
-/// Accepts the example, and nothing else.
+/// Accepts only the example.
 ProofAnswer knows_one(const ProofFiles& files) {
   static const ProofCase good = example();
   return {files.proof == good.proof && files.files == good.files ? 0 : 3, ""};
 }
 
-/// Accepts whatever has the right checksums.
+/// Accepts every file with correct checksums.
 ProofAnswer believes_all(const ProofFiles& files) {
   try {
     parse_proof(files.proof, "proof");
@@ -182,7 +182,7 @@ TEST_F(FuzzProofs, KeepsAMutantThatIsNoFindingThoughOneOfItsShapeIs) {
   EXPECT_EQ(read_proof_files(kept).proof.size() % 2, 1u) << "what was kept is what was no finding";
 }
 
-/// As if the disk were full, for as long as this lives.
+/// Simulates a full disk while the object exists.
 class SmallFiles {
  public:
   explicit SmallFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -243,7 +243,7 @@ TEST_F(FuzzProofs, CountsNoAnswerAsRejected) {
 }
 
 TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
-  // A fault that hangs on one byte: which source the claim names.
+  // A fault that depends on one byte: the claim's source.
   plain = [](const ProofFiles& files) -> ProofAnswer {
     try {
       const auto claim = parse_claim(parse_proof(files.proof, "proof"));
@@ -264,14 +264,14 @@ TEST_F(FuzzProofs, PutsBackWhatIsNotNeeded) {
   EXPECT_EQ(report.findings[0].files.files, good.files);
 }
 
-/// As files, with a third frame that the proof does not know.
+/// The example's files, with a third frame that is not part of the proof.
 ProofFiles example_files() {
   const ProofCase good = example();
   return {good.proof, good.extension, {good.files[0], good.files[1], good.files[1]}};
 }
 
 TEST(MinimiseProof, LeavesOutWhatIsNotNeeded) {
-  // A fault that one token is enough for, in whatever block.
+  // A fault triggered by a single token in any block.
   const auto fails = [](const ProofFiles& files) {
     if (believes_all(files).code != 0) return false;
     for (const ProofGroup& group : parse_proof(files.proof, "candidate")) {
@@ -307,7 +307,7 @@ TEST(MinimiseProof, TakesBytesThatAreNoBlocks) {
   EXPECT_EQ(smallest.files.size(), 1u);
 }
 
-/// Rejects all: what is no blocks for that, and the rest for a reason of its own.
+/// Rejects everything: files without blocks for that reason, and block files for another one.
 ProofAnswer rejects_all(const ProofFiles& files) {
   const bool blocks = believes_all(files).code == 0;
   return {3, "", blocks ? fmt::format("rejected: byte {}: other cells", files.proof.size()) : "rejected: no blocks"};
@@ -340,7 +340,7 @@ TEST(MinimiseFinding, EndsWithAProofThatCanBeReadAgain) {
   EXPECT_EQ(read_proof_files(folder / "").proof, smallest.proof);
 }
 
-/// A user who would not wait for more answers than these.
+/// Requests a stop after this many answers, like a user who interrupts.
 class StopsAfter : public ProofChecker {
  public:
   StopsAfter(int answers, std::atomic<bool>& stop) : left_(answers), stop_(stop) {}
@@ -467,7 +467,7 @@ TEST_F(ClaimOracle, KnowsDistance) {
 }
 
 TEST_F(ClaimOracle, KnowsRings) {
-  motion.mesh.edges.push_back({1, 2});  // a path from the one to the other
+  motion.mesh.edges.push_back({1, 2});  // joins the two edges
   motion.frames[1] = motion.frames[0];
   claim.eta = 4.5;
   claim.ring = 2;

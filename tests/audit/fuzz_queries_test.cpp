@@ -20,7 +20,7 @@
 namespace noli::audit {
 namespace {
 
-/// The oracle itself as the code under test: never wrong, and independent of the kernel.
+/// Uses the oracle as the code under test: it is never wrong and independent of the kernel.
 Decision decide_with_oracle(const AnyQuery& query, StageCounters& stages) {
   stages.count(Stage::gmp);
   const Truth truth = truth_of(query);
@@ -29,13 +29,13 @@ Decision decide_with_oracle(const AnyQuery& query, StageCounters& stages) {
   return {TimeEnclosure{lower, 1}, truth.kind, lower};
 }
 
-/// The oracle as the code under test for probes.
+/// Uses the oracle as the code under test for probes.
 ProbeDecision probe_with_oracle(const AnyQuery& query, const Probe& probe) {
   const ProbeTruth truth = truth_of(query, probe);
   return {truth.within_t.has_value(), truth.within_t, truth.failure};
 }
 
-/// Takes a contact at the end of the step for none: what a half-open interval would do.
+/// Misses contact at the end of the step, as code with a half-open interval would.
 Decision forgets_the_end(const AnyQuery& query, StageCounters& stages) {
   const Decision decision = decide_with_oracle(query, stages);
   return decision.contact && decision.lower == 1 ? Decision{} : decision;
@@ -48,7 +48,7 @@ class FuzzQueries : public testing::Test {
     options.out = std::filesystem::temp_directory_path() / ("noli-" + std::to_string(getpid()) + "-" + test->name());
     options.limits.seed = 5;
     options.limits.threads = 1;
-    options.limits.count = 6000;  // two dozen blocks, the last one not whole
+    options.limits.count = 6000;  // two dozen blocks, the last one incomplete
     options.decide = decide_with_oracle;
     options.decide_probe = probe_with_oracle;
   }
@@ -337,7 +337,7 @@ TEST_F(FuzzQueries, SlowTheKernelPassesHalfAMillion) {
   options.limits.seed = 2;
   options.limits.threads = 0;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  options.limits.count = 100000;  // they take twenty times as long
+  options.limits.count = 100000;  // sanitizers take twenty times as long
 #else
   options.limits.count = 500000;
 #endif

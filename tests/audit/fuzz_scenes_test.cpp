@@ -28,7 +28,7 @@ bool has(const std::vector<std::string>& arguments, const std::string& word) {
   return std::ranges::find(arguments, word) != arguments.end();
 }
 
-/// A program that does all that it has to, and finds no fault in any scene.
+/// A program that does everything right and accepts every scene.
 ProgramEnd does_well(const std::vector<std::string>& arguments) {
   if (arguments[0] != "simulate") return ended(0, "verdict=proved\n");
   const std::filesystem::path run = arguments[3];
@@ -48,7 +48,7 @@ class FuzzScenes : public testing::Test {
     options.max_findings = 1;
   }
 
-  /// Of valid scenes.
+  /// The first finding that is not about an invalid scene.
   std::optional<SceneFinding> finding_of(const RunNoli& noli) {
     options.noli = noli;
     for (SceneFinding& finding : fuzz_scenes(options).findings) {
@@ -62,7 +62,7 @@ class FuzzScenes : public testing::Test {
 };
 
 TEST_F(FuzzScenes, FindsNothingInValidScenesWhereNothingIsWrong) {
-  options.limits.count = 11;  // all generators but that of wrong scenes
+  options.limits.count = 11;  // all generators except that of invalid scenes
   options.noli = does_well;
   const SceneFuzzReport report = fuzz_scenes(options);
   EXPECT_EQ(report.findings_total, 0u) << report.findings[0].difference;
@@ -205,8 +205,8 @@ TEST(RunProgram, TellsHowItEnded) {
   EXPECT_THROW(run_program({"/no/such/program"}, {}), std::runtime_error);
 }
 
-/// A process is stopped (Ctrl-Z) while its program runs. It is one of its own, as a shell that sees its job stopped
-/// would take this test for stopped.
+/// A process is stopped (Ctrl-Z) while its program runs. The test forks a process for this: if the test itself were
+/// stopped, the shell would treat its job as stopped.
 TEST(RunProgram, DoesNotCountATimeInWhichItWasStoppedItself) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);

@@ -17,7 +17,7 @@
 namespace noli::audit {
 namespace {
 
-/// The oracle itself as the subject: never wrong.
+/// Uses the oracle as the subject, which is never wrong.
 MotionAnswer oracle_answer(const FrameMotion& motion) {
   const MotionTruth truth = truth_of(motion);
   MotionAnswer answer;
@@ -33,7 +33,7 @@ MotionAnswer oracle_answer(const FrameMotion& motion) {
   return answer;
 }
 
-/// Takes a contact at the end of a step for none.
+/// Misses contact at the end of a step.
 MotionAnswer forgets_the_end(const FrameMotion& motion) {
   MotionAnswer answer = oracle_answer(motion);
   if (answer.first && answer.first->time == 1) answer.contact = false;
@@ -51,7 +51,7 @@ class FuzzTrajectories : public testing::Test {
     options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
   }
 
-  /// The first finding of a subject that is wrong.
+  /// The first finding against a wrong subject.
   TrajectoryFinding finding_of(const DecideMotion& decide) {
     options.decide = decide;
     const TrajectoryReport report = fuzz_trajectories(options);
@@ -201,7 +201,7 @@ TEST_F(FuzzTrajectories, MakesMotionsOfTheFamiliesThatAreNamed) {
   EXPECT_THROW(fuzz_trajectories(options), std::invalid_argument);
 }
 
-/// The families of last bits have contacts and near misses of all kinds of features, in space and in the plane.
+/// These families produce contacts and near misses of all kinds of features, in space and in the plane.
 TEST(MotionGenerators, DelicateOnesHaveBothAnswersForAllKindsOfFeatures) {
   const std::vector<std::string> names = {"last_ulp", "huge", "landing"};
   for (const MotionGenerator& generator : motion_generators(names)) {
@@ -224,7 +224,7 @@ TEST(MotionGenerators, DelicateOnesHaveBothAnswersForAllKindsOfFeatures) {
   }
 }
 
-/// Those that `last_ulp` is made for: the first contact is within an ulp of an end of the step, but not at it.
+/// `last_ulp` must produce first contacts within an ulp of an end of the step, but not at it.
 TEST(MotionGenerators, LastUlpsMeetThere) {
   const std::vector<std::string> names = {"last_ulp"};
   Random random(18);
@@ -319,7 +319,7 @@ TEST(MotionGenerators, PlantWhatTheyAreNamedFor) {
   EXPECT_GT(times.size(), 5u);
 }
 
-/// What `noli fuzz trajectories --corpus` kept, one motion for each way in which cells can first meet.
+/// Motions kept by `noli fuzz trajectories --corpus`, one for each way in which cells can first meet.
 TEST(MotionCorpus, IsDecidedByTheVerifierAsByTheOracle) {
   std::size_t motions = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(NOLI_SOURCE_DIR) + "/tests/audit/motions")) {

@@ -15,7 +15,7 @@ namespace {
 
 using integrator::Model;
 
-/// Two masses of 1 kg, 1 m apart, on a spring of 1 N/m: their distance swings with the frequency sqrt(2).
+/// Two masses of 1 kg, 1 m apart, on a spring of 1 N/m: their distance oscillates with angular frequency sqrt(2).
 Model<double, 2> two_masses(double step) {
   Model<double, 2> model;
   model.mesh.vertex_count = 2;
@@ -72,7 +72,7 @@ TEST(SampledRun, PinnedMassesStayAndGravityPulls) {
     EXPECT_NEAR(last.x[1][1], -0.5, 0.06);
     const Mechanics<2> begin = mechanics(model, run.samples.front()), end = mechanics(model, last);
     EXPECT_NEAR(end.energy(), begin.energy(), 2e-3);
-    EXPECT_NEAR(begin.kinetic, 0.005, 1e-15);  // of the free mass alone
+    EXPECT_NEAR(begin.kinetic, 0.005, 1e-15);  // only the free mass
   }
 }
 
@@ -104,7 +104,7 @@ const MethodResult& method(const IntegratorResult& result, const std::string& na
   throw std::out_of_range(name);
 }
 
-/// A chain in the plane whose middle is stiffer.
+/// A chain in the plane with a stiffer middle.
 std::string chain(const std::string& more) {
   return R"({"noli_scene": 1, "title": "chain", "dimension": 2, "duration": 0.4, "window": 0.1, "bodies": [
     {"name": "chain", "mesh": {"chain": {"points": [[-1, 0], [1, 0]], "segments": 6}}, "deform": {"stretch": [1.1, 1]},
@@ -123,7 +123,7 @@ TEST(IntegratorAudit, ConvergesToTheReferenceWithTheOrderOfEachMethod) {
   for (const char* const name : {"own", "grouped", "verlet"}) {
     const auto& points = method(result, name).points;
     ASSERT_EQ(points.size(), 4u) << name;
-    // Own steps are no parts of each other: their order shows over all halvings, not over each.
+    // Own steps do not divide each other, so the order shows over all halvings, not over a single one.
     EXPECT_NEAR(std::log2(points[0].errors.trajectory / points[3].errors.trajectory) / 3, 2, 0.3) << name;
     EXPECT_LT(points[3].errors.momentum, 1e-13) << name;
     EXPECT_LT(points[3].errors.angular_momentum, 1e-13) << name;
@@ -133,8 +133,8 @@ TEST(IntegratorAudit, ConvergesToTheReferenceWithTheOrderOfEachMethod) {
   const auto& euler = method(result, "euler").points;
   ASSERT_GE(euler.size(), 2u);
   EXPECT_GT(euler.front().errors.trajectory, euler.back().errors.trajectory);
-  EXPECT_GT(euler.back().errors.angular_momentum, 1e-6);  // it loses that
-  EXPECT_LT(euler.back().errors.momentum, 1e-6);          // but, up to its solver, not this
+  EXPECT_GT(euler.back().errors.angular_momentum, 1e-6);  // not conserved
+  EXPECT_LT(euler.back().errors.momentum, 1e-6);          // conserved, up to the solver's error
   EXPECT_LT(method(result, "grouped").points[0].events, method(result, "verlet").points[0].events);
 }
 

@@ -37,7 +37,7 @@ TEST(Minimise, LeavesNothingThatIsNotNeeded) {
 }
 
 TEST(Minimise, PrefersFewDifferentNumbers) {
-  // Two sums that have to be the same, of numbers that may be any.
+  // Compares two sums whose terms may be any numbers.
   const auto fails = [](const AnyQuery& query) {
     const double a = query.x_t0[0][0] + query.x_t0[1][1], b = query.x_t1[2][2] + query.x_t1[3][0];
     return a > 2.5 && b > a;

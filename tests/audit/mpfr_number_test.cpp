@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MPFR's numbers against the processor's: with 53 bits and the exponents of IEEE 754 they are the same, bit for bit.
+// Compares MPFR's numbers with the processor's: with 53 bits and IEEE 754 exponents they agree, bit for bit.
 #include "audit/numerics/mpfr_number.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr double least = std::numeric_limits<double>::denorm_min(), greatest = s
                  smallest_normal = std::numeric_limits<double>::min(),
                  infinity = std::numeric_limits<double>::infinity();
 
-/// What the results of a comparison were, so that a test can say that it has seen all sorts.
+/// Counts the kinds of results of a comparison, so that a test can require every kind.
 struct Seen {
   std::uint64_t operations = 0, different = 0, subnormal = 0, infinite = 0, zero = 0, not_a_number = 0;
 
@@ -43,8 +43,8 @@ void compare(double x, double y, Seen& seen) {
   seen.add(std::abs(y), abs(b));
 }
 
-/// Pairs that meet: any bits at all; exponents near each other; products and quotients that become subnormal, or too
-/// large.
+/// Pairs of operands: random bits, exponents near each other, or products and quotients that become subnormal or
+/// overflow.
 std::pair<double, double> pair_of(Random& random) {
   const double x = std::bit_cast<double>(random.next()), y = std::bit_cast<double>(random.next());
   if (random.one_in(4)) return {x, y};
@@ -126,7 +126,8 @@ TEST(MpfrNumber, IsTheProcessorsDoubleAtTheBorders) {
 
 TEST(MpfrNumber, RoundsSubnormalNumbersOnce) {
   const MpfrScope scope(hardware_double);
-  // 2.5 + 2^-53 - 2^-103 of the least: with 53 bits 2.5, a tie, which would then go down.
+  // The product is (2.5 + 2^-53 - 2^-103) times the least subnormal. Rounded to 53 bits first it would be 2.5, a tie,
+  // and then round down.
   const double a = std::ldexp(1 + 0x1p-52, -537), b = std::ldexp(2.5 - 0x1p-51, -537);
   EXPECT_EQ(a * b, 3 * least);
   EXPECT_EQ(static_cast<double>(MpfrNumber(a) * MpfrNumber(b)), 3 * least);
@@ -148,13 +149,13 @@ TEST(MpfrNumber, OverflowsWhereDoubleDoes) {
 TEST(MpfrNumber, HasThePrecisionOfItsScope) {
   for (const int bits : {2, 24, 52, 53, 64, 65, 113, 128, 256, 1000, 1024}) {
     const MpfrScope scope({bits, false});
-    MpfrNumber last(1.0);  // 2^-(p-1), the last place of 1
+    MpfrNumber last(1.0);  // becomes 2^-(p-1), the last place of 1
     for (int i = 1; i < bits; ++i) last = last / MpfrNumber(2.0);
     const MpfrNumber one(1.0), half = last / MpfrNumber(2.0);
     EXPECT_EQ(one.bits(), bits);
     EXPECT_FALSE(one + last == one) << bits;
-    EXPECT_TRUE(one + half == one) << bits;                         // a tie, to even
-    EXPECT_TRUE((one + last) + half == one + last + last) << bits;  // and here up
+    EXPECT_TRUE(one + half == one) << bits;                         // a tie, down to even
+    EXPECT_TRUE((one + last) + half == one + last + last) << bits;  // a tie, up to even
     const MpfrNumber third = one / MpfrNumber(3.0), error = abs(third * MpfrNumber(3.0) - one);
     EXPECT_TRUE(error <= last) << bits;
   }
@@ -220,7 +221,7 @@ TEST(MpfrNumber, SameBitsSeesSignsOfZero) {
   EXPECT_TRUE(same_bits(std::numeric_limits<double>::quiet_NaN(), MpfrNumber(0.0) / MpfrNumber(0.0)));
 }
 
-/// Sums of three terms have an order: that in which Eigen adds doubles up.
+/// The order of adding three terms must be the one that Eigen uses for doubles.
 TEST(MpfrNumber, IsAddedUpInTheOrderOfDoubles) {
   const MpfrScope scope(hardware_double);
   Random random(5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes in MPFR: with 53 bits they are what they are in double, bit for bit; with others they are not.
+// Runs scenes in MPFR: with 53 bits they equal double, bit for bit; with other precisions they differ.
 #include "audit/numerics/precision.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Scene shipped(const std::string& name) {
   return integrator::read_scene(std::string(NOLI_SOURCE_DIR) + "/scenes/" + name + ".json", integrator::Form::brief);
 }
 
-/// A scene with these bodies and this beside them.
+/// A scene with these bodies; `rest` holds its other members.
 Scene written(const std::string& bodies, const std::string& rest) {
   return integrator::parse_scene(R"({"noli_scene": 1, "bodies": [)" + bodies + "]," + rest + "}", "test.json");
 }
@@ -41,7 +41,7 @@ Scene falling_sheet(const std::string& steps, bool inclusion_exclusion = false) 
           (inclusion_exclusion ? "true}" : "false}"));
 }
 
-/// Two elastic discs in a small box: neighbouring runs part within half a second.
+/// Two elastic discs in a small box: runs that begin close to each other diverge within half a second.
 Scene discs() {
   const std::string material =
       R"("material": {"edge_stiffness": 2000, "bending_stiffness": 0.01, "mass_per_vertex": 0.001})";
@@ -80,7 +80,7 @@ void expect_same(const PrecisionOutcome& outcome) {
   }
 }
 
-/// 53 bits are double, and neither 52 nor 54 are, nor would 53 without any rounding of subnormal numbers be noticed.
+/// Expects that 53 bits equal double, and that 52 and 54 bits do not.
 void expect_only_double_is_double(const Scene& scene, std::uint64_t windows) {
   expect_same(audit(scene, windows, {hardware_double}));
   for (const int bits : {52, 54}) {
@@ -103,7 +103,7 @@ TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWithContactInThePlane) {
   expect_same(audit(discs(), 10, {hardware_double}));
 }
 
-/// What holds still is struck from the start, and gravity acts on it in neither run.
+/// Resting bodies are struck from the start, and gravity acts on them in neither run.
 TEST(PrecisionAudit, FiftyThreeBitsAreDoubleWhereARunBeginsInContact) {
   const Scene scene = written(
       R"({"mesh": {"points": {"at": [[0, 0.09]]}}, "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
@@ -141,7 +141,7 @@ TEST(PrecisionAudit, FiftyThreeBitsAreDoubleInShippedScenesSlow) {
   }
 }
 
-/// What is called double is what `noli simulate` runs.
+/// The audit's run in double equals the run of `noli simulate`.
 template <int Dim>
 void expect_energies_of_simulation(const Scene& scene, std::uint64_t windows) {
   const auto model = integrator::build_model<Dim>(scene).model;
@@ -171,7 +171,7 @@ TEST(PrecisionAudit, DriftsConvergeWithThePrecision) {
   for (std::size_t i = 0; i < 4; ++i) position[i] = outcome.runs[i].drifts.back().position;
   EXPECT_GT(position[3], 1e-18);
   EXPECT_LT(position[3], 1e-13);
-  // 64 bits are themselves off, by some thousandths of what double is; 113 bits by nothing that shows.
+  // The drift measured against 64 bits is off by some thousandths, that against 113 bits by too little to show.
   EXPECT_NEAR(position[1], position[3], 1e-2 * position[3]);
   EXPECT_NE(position[1], position[3]);
   EXPECT_NEAR(position[2], position[3], 1e-12 * position[3]);
@@ -203,12 +203,12 @@ TEST(PrecisionAudit, SaysWhenTheOrderOfEventsChanges) {
   ASSERT_LT(windows, 8U);
   EXPECT_LT(outcome.energies[windows - 1].time, acts.first->time);
   EXPECT_GE(outcome.energies[windows].time, acts.first->time);
-  // What comes before is a drift, what comes after is another experiment.
+  // Before that, the difference is a drift; afterwards the runs follow different motions.
   EXPECT_LT(outcome.runs.back().drifts[windows - 1].position, 1e-3 * outcome.extent);
   EXPECT_GT(outcome.runs.back().drifts.back().position, 0.1 * outcome.extent);
 }
 
-/// Scripts and restitution have books: what they give and take is no error of steps.
+/// The energy that scripts and restitution add or remove is booked, so it does not count as truncation error.
 TEST(PrecisionAudit, TellsTruncationWhereScriptsAndRestitutionWork) {
   const std::vector<Arithmetic> arithmetics = {hardware_double, {128, false}};
   const PrecisionOutcome pulled = audit(shipped("sheet_through_sheet"), 4, arithmetics),

@@ -20,7 +20,7 @@ std::filesystem::path committed_corpus() {
   return std::filesystem::path(NOLI_SOURCE_DIR) / "tests/fuzz/seeds/predicate";
 }
 
-/// A vertex that passes a face in its middle, at 1/2.
+/// A vertex that passes through the middle of a face at t = 1/2.
 AnyQuery crossing() {
   AnyQuery query{FeaturePair::vertex_face, 3, {}, {}};
   query.x_t0 = {{{0, 0, 1}, {-4, -4, 0}, {4, -4, 0}, {0, 8, 0}}};
@@ -113,7 +113,7 @@ TEST(SavedQuery, QuotesForTheShell) {
   EXPECT_EQ(quoted(""), "''");
 }
 
-/// The queries that are committed: kernel and oracle agree on each, and together they reach what their names say.
+/// Kernel and oracle agree on each committed query. Names state the kind of contact, and all stages and kinds occur.
 TEST(CommittedCorpus, KernelAndOracleAgree) {
   const QueryCorpus corpus(committed_corpus());
   ASSERT_GE(corpus.queries().size(), 60U);
@@ -133,7 +133,7 @@ TEST(CommittedCorpus, KernelAndOracleAgree) {
   EXPECT_EQ(reached.size(), all_stages.size() + 4);
 }
 
-/// What a page says of the generators is what the generators say.
+/// The documentation lists each generator with its own description.
 TEST(QueryGenerators, AreDocumented) {
   std::ifstream file(std::string(NOLI_SOURCE_DIR) + "/docs/audit/fuzz.md");
   std::stringstream page;

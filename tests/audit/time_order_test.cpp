@@ -6,7 +6,7 @@
 namespace noli::audit {
 namespace {
 
-/// Of two clocks that are both looked at up to `end`.
+/// The first tie of two clocks in ]0, end].
 std::optional<TimeTie> tie_of(const TimedClock& a, const TimedClock& b, double end) {
   std::vector<TimedEvent> events;
   add_events(a, 0, end, events);

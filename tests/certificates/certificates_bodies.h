@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small bodies of all kinds, one above the other, that can move without ever meeting.
+// Builds small bodies of all kinds, one above the other, that can move without ever meeting.
 //
 // Notation
-//   band     bodies lie in bands across one direction, some distance apart. Each vertex has a box of its own, within
-//            its body's band, so that bands keep apart as long as vertices keep to their boxes
+//   band     the slab that contains a body. Bands are stacked along one direction, some distance apart. Each vertex has
+//            a box within its body's band, so bands stay apart as long as vertices stay in their boxes
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class BodiesMaker {
  private:
   double between(double low, double high) { return eta_ * (low + (high - low) * random_.unit()); }
 
-  /// At these places across the band; heights within it.
+  /// `a` and `b` are positions along the band, `height` is the height within it.
   VertexId vertex(double a, double b, double height) {
     Vector<Dim> home;
     home[0] = a;
@@ -66,13 +66,13 @@ class BodiesMaker {
     top_ += 2 * up_ + high + between(0.35, 0.9);
   }
 
-  /// Returns the height that it takes beside what its vertices reach.
+  /// Returns the body's height, without the reach of its vertices.
   double body_in_space(double l) {
     const double a = between(-4, 4), b = between(-4, 4);
     Mesh& mesh = troupe_.mesh;
     switch (random_.below(6)) {
       case 0: mesh.faces.push_back({vertex(a, b, 0), vertex(a + l, b, 0), vertex(a, b + l, 0)}); return 0;
-      case 1: {  // a strip of four
+      case 1: {  // a strip of four faces
         std::array<VertexId, 6> v;
         for (int i = 0; i < 6; ++i) {
           v[static_cast<std::size_t>(i)] = vertex(a + 0.5 * l * i - l, b + (i % 2 == 0 ? 0 : l), 0);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies that are kicked at random times and never meet: something for certificates to follow that is no physics, has
-// no forces to cost time, and comes near and parts as often as one likes.
+// Tests certificates without physics: bodies that never meet are kicked at random times, so that they approach and
+// separate as often as needed, without the cost of forces.
 //
 // Notation: that of certificates_bodies.h, and
-//   drift     all boxes move with it
-//   due       of a vertex: by then it is kicked again, at the latest; until then it does not get past where it heads
-//   window    all vertices are advanced to its end, as in integrator/engine.h. What is recorded is what the engine
-//             would record: fl(x + (t - t_i) v) at each change of velocity
-//   fault     what the certificates are told wrongly, for tests of the test
+//   drift     the common velocity of all boxes
+//   due       the latest time of a vertex's next kick; until then it does not move past its target
+//   window    all vertices are advanced to its end, as in integrator/engine.h. The record is what the engine would
+//             record: fl(x + (t - t_i) v) at each change of velocity
+//   fault     an error made on purpose in what certificates receive, to test the test
 #pragma once
 
 #include <array>
@@ -33,16 +33,16 @@ namespace noli::certificates::test {
 
 enum class Fault {
   none,
-  late,       ///< a layer is active a little later than it was asked for
-  thin,       ///< layers are two in a hundred thinner than said
+  late,       ///< a layer becomes active a little later than requested
+  thin,       ///< layers are two per cent thinner than stated
   forgetful,  ///< one look in eight is left out
-  ulp_late,   ///< decisions are compared with what holds until the next double after the time they are about
+  ulp_late,   ///< decisions are compared with what holds until the next double after their time
 };
 
 /// eta(l) = eta(1) l^(-1/4).
 inline double layer(double eta, std::uint32_t l) { return eta / std::sqrt(std::sqrt(static_cast<double>(l))); }
 
-/// What is random about a dance. Lengths in units of eta(1), times in units of the mean time between kicks of a vertex.
+/// Options of a random motion. Lengths in units of eta(1), times in units of the mean time between kicks of a vertex.
 struct DanceOptions {
   std::uint64_t seed = 0;
   double eta = 0.01, beat = 0.001;  ///< the units [m], [s]
@@ -50,12 +50,12 @@ struct DanceOptions {
   double drift = 0;                 ///< speed
   double start = 0;                 ///< time
   int bodies = 6;
-  double slice = 10;           ///< the longest
+  double slice = 10;           ///< the longest slice
   std::size_t many_walls = 4;  ///< make a pen worth its while
   Fault fault = Fault::none;
 };
 
-/// A pair that certificates follow or not: how many layers it has since when in this window.
+/// A pair, and how many layers it had from which time on in this window.
 template <int Dim>
 struct Followed {
   struct Change {
@@ -65,11 +65,11 @@ struct Followed {
 
   Stencil stencil;
   std::uint16_t material;
-  std::vector<Change> changes;  ///< the first at the window's beginning
+  std::vector<Change> changes;  ///< the first is at the window's beginning
   Vector<Dim> n = Vector<Dim>::Zero();
 };
 
-/// `Checked`: each decision of the certificates is compared with the rationals.
+/// `Checked`: compares each decision of the certificates with rational arithmetic.
 template <int Dim, template <int, class> class Certificates, bool Checked = false>
 class Dance {
  public:
@@ -94,7 +94,7 @@ class Dance {
   Dance(const Dance&) = delete;
   Dance& operator=(const Dance&) = delete;
 
-  /// Some sixty kicks of each vertex.
+  /// Kicks each vertex about sixty times.
   void run_window() {
     const double end = t_ + 64 * options_.beat;
     while (due_.top().first <= end) {
@@ -109,7 +109,7 @@ class Dance {
     for (std::size_t i = 0; i < bodies_.size(); ++i) advance(static_cast<VertexId>(i), end);
   }
 
-  /// The pair that was nearer than its next layer in this window, or none. Then the next window may begin.
+  /// A pair that was nearer than its next layer in this window, if there is one. Then the next window may begin.
   std::optional<Stencil> replay() {
     Replay<Dim> replay(tracks_);
     std::optional<Stencil> late;
@@ -173,9 +173,9 @@ class Dance {
 
   double signed_unit() { return 2 * random_.unit() - 1; }
 
-  // --- Before --------------------------------------------------------------------------------------------------------
+  // --- Setup ---------------------------------------------------------------------------------------------------------
 
-  /// Orthonormal but for rounding; the drift has a direction too.
+  /// Chooses a frame, orthonormal up to rounding, and the direction of the drift.
   void choose_frame() {
     for (int d = 0; d < Dim; ++d) {
       Vector<Dim> e;
@@ -188,7 +188,7 @@ class Dance {
     for (int k = 0; k < Dim; ++k) drift_[k] = options_.drift * options_.eta / options_.beat * signed_unit();
   }
 
-  /// All pairs that are any.
+  /// Follows all pairs that have a contact material.
   void follow_all() {
     const Features features(mesh_, Dim);
     const auto cells = static_cast<std::uint32_t>(features.cells().size());
@@ -204,7 +204,7 @@ class Dance {
     }
   }
 
-  /// Some vertices are kicked at multiples of a step, others whenever.
+  /// Some vertices are kicked at multiples of a step, others at random times.
   void set_clocks() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const bool regular = !immovable_[i] && random_.below(2) == 0;
@@ -243,7 +243,7 @@ class Dance {
     }
   }
 
-  /// The vertex is due; others may be kicked with it, as by a layer.
+  /// Kicks the vertex, which is due, and perhaps others with it, as a layer would.
   void figure(VertexId i) {
     choose_due(i);
     std::vector<VertexId> struck{i};
@@ -263,7 +263,7 @@ class Dance {
     certificates_->look(v, t_);
   }
 
-  /// Heads for some place of its box; or rests, or creeps.
+  /// Sends the vertex to a random place in its box; sometimes it rests or creeps instead.
   void kick(VertexId i) {
     const int mood = random_.below(16);
     if (!(next_[i] > t_)) return;
@@ -281,7 +281,7 @@ class Dance {
     body.v = drift_ + v;
   }
 
-  /// As when an event writes a vertex: integrator/kick.h.
+  /// Advances a vertex as an event does (integrator/kick.h).
   void advance(VertexId i, double t) {
     Line<Dim>& body = bodies_[i];
     if (body.t == t) return;
@@ -290,7 +290,7 @@ class Dance {
     tracks_[i].push_back({t, body.x});
   }
 
-  /// As when a layer fires: those of its pairs that are outside may lose it.
+  /// Drops layers as after a firing: pairs outside a layer may lose it.
   void drop_some() {
     for (int k = 0; k < 4 && !active_.empty(); ++k) {
       auto at = active_.lower_bound(static_cast<std::size_t>(random_.below(static_cast<int>(followed_.size()))));
@@ -306,7 +306,7 @@ class Dance {
     }
   }
 
-  // --- What is recorded ----------------------------------------------------------------------------------------------
+  // --- The record ----------------------------------------------------------------------------------------------------
 
   void begin_window() {
     tracks_.assign(bodies_.size(), {});
@@ -314,7 +314,7 @@ class Dance {
     for (Followed<Dim>& pair : followed_) pair.changes = {{t_, pair.changes.back().layers}};
   }
 
-  /// Of several changes at one time the last counts; each adds or takes one layer.
+  /// Records that a pair gained or lost one layer. Of several changes at one time, the last counts.
   void change(const Stencil& s, std::uint32_t layers, double t) {
     const std::size_t p = index_.at(s.key);
     Followed<Dim>& pair = followed_[p];
@@ -339,7 +339,7 @@ class Dance {
   Vector<Dim> drift_;
   double t_ = 0;  ///< now
   std::vector<Line<Dim>> bodies_;
-  std::vector<double> steps_, next_;  ///< of a vertex: the step of its kicks, or never; when it is due
+  std::vector<double> steps_, next_;  ///< by vertex: the step of its kicks, or never; when it is due
   std::priority_queue<std::pair<double, VertexId>, std::vector<std::pair<double, VertexId>>, std::greater<>> due_;
   std::vector<Followed<Dim>> followed_;
   std::map<PairKey, std::size_t> index_;

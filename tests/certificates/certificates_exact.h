@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two features whose points follow chords come within a distance of each other during a piece of time? Exact: the
-// kernel's polynomials (kernel/distance_parts.h), with the ends of the piece as the rational numbers that they are.
+// Decides exactly whether two features whose points follow chords come within a distance of each other during a piece
+// of time. It uses the kernel's polynomials (kernel/distance_parts.h), with the ends of the piece as rational numbers.
 //
 // Notation: that of kernel/motion.h; a chord is the line between two breakpoints.
 #pragma once
@@ -19,19 +19,19 @@
 
 namespace noli::certificates::test {
 
-/// From x0 at t0 to x1 at t1, t0 < t1.
+/// A chord from x0 at t0 to x1 at t1, t0 < t1.
 template <int Dim>
 struct MotionSegment {
   double t0 = 0, t1 = 0;
   Vector<Dim> x0 = Vector<Dim>::Zero(), x1 = Vector<Dim>::Zero();
 
-  /// In double precision: each coordinate is within 13 units of 2^-53 of the largest at the ends.
+  /// The position in double precision. The error is at most 13 units of 2^-53 of the largest coordinate at the ends.
   Vector<Dim> at(double t) const { return x0 + ((t - t0) / (t1 - t0)) * (x1 - x0); }
 };
 
 namespace detail {
 
-/// Times and coordinates as integers, each times a power of two of its own.
+/// The powers of two that turn times and coordinates into integers.
 struct Scale {
   exact::ExponentRange time, space;
 };
@@ -93,7 +93,7 @@ bool comes_within(std::span<const MotionSegment<Dim>> chords, double begin, doub
   const Integer bound = common * exact::coordinate<Integer>(eta, scale.space);
   const auto parts = distance::parts_of<Pair, Dim>(x, bound * bound);
   if (within(parts, AlgebraicNumber())) return true;
-  // If not at the beginning, then first at a root of an excess: see kernel/thickness.cpp.
+  // The first time is the beginning or a root of an excess: see kernel/thickness.cpp.
   for (const auto& part : parts) {
     if (part.excess.is_zero()) continue;
     for (const AlgebraicNumber& t : roots_in_unit_interval(part.excess)) {

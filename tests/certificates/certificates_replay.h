@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recorded world lines played back: do two features stay farther apart than a bound, all the time?
+// Plays back recorded world lines and decides whether two features stay farther apart than a bound all the time.
 //
 // Notation
-//   track   breakpoints of a vertex over a window, joined linearly, which is what is recorded of a run
+//   track   breakpoints of a vertex over a window, joined linearly, as recorded in a run
 //   piece   a time in which no vertex of the pair has a breakpoint
-//   n       a direction, |n| = 1 but for rounding; n . (a - b) is linear in time over a piece, so if it is greater than
-//           a bound at both ends for all vertices a of A and b of B, the features are farther apart than that
+//   n       a direction, |n| = 1 up to rounding; n . (a - b) is linear in time over a piece, so if it is greater than a
+//           bound at both ends for all vertices a of A and b of B, the features are farther apart than that
 //
-// Most pieces are settled by such a direction in double precision, with an error bound; where none is found a piece is
-// cut in two; and what resists is decided exactly (certificates_exact.h).
+// Such a direction settles most pieces in double precision, with an error bound. If none is found, the piece is halved.
+// Pieces that stay open are decided exactly (certificates_exact.h).
 #pragma once
 
 #include <algorithm>
@@ -35,9 +35,9 @@ template <int Dim>
 using Track = std::vector<Breakpoint<Dim>>;
 
 struct ReplayCounts {
-  std::uint64_t boxed = 0;                                 ///< stretches settled by boxes, whatever their breakpoints
-  std::uint64_t pieces = 0;                                ///< looked at by themselves
-  std::uint64_t near = 0;                                  ///< of these, with a gap below twice the bound
+  std::uint64_t boxed = 0;                                 ///< stretches settled by boxes, without their breakpoints
+  std::uint64_t pieces = 0;                                ///< examined one by one
+  std::uint64_t near = 0;                                  ///< those of them with a gap below twice the bound
   std::uint64_t exact = 0;                                 ///< decided by integers
   double least = std::numeric_limits<double>::infinity();  ///< gap found, in units of the bound, less 1
 
@@ -54,7 +54,7 @@ struct ReplayCounts {
 template <int Dim>
 class Replay {
  public:
-  /// Of a window. The tracks must outlive this.
+  /// The tracks of a window must outlive this object.
   explicit Replay(const std::vector<Track<Dim>>& tracks) : tracks_(tracks) {
     double greatest = 0;
     for (const Track<Dim>& track : tracks) {
@@ -71,8 +71,8 @@ class Replay {
     error_ = 0x1p-46 * greatest;
   }
 
-  /// Whether the pair is farther apart than eta at each time of [begin, end]. `n`: a direction to try first; becomes
-  /// the last that held. Preconditions: the tracks reach from begin, or earlier, to end, or later; begin < end.
+  /// Whether the pair is farther apart than eta at each time of [begin, end]. `n` is a direction to try first; it
+  /// becomes the last one that held. Preconditions: the tracks cover [begin, end]; begin < end.
   bool stays_farther(const Stencil& s, double begin, double end, double eta, Vector<Dim>& n) {
     if (boxes_apart(s, eta)) {
       ++counts_.boxed;
@@ -113,7 +113,7 @@ class Replay {
     return (low[0] - high[1]).maxCoeff() > need || (low[1] - high[0]).maxCoeff() > need;
   }
 
-  /// The last chord that begins at t or before.
+  /// The last chord that begins at or before t.
   static std::size_t chord_after(const Track<Dim>& track, double t) {
     const auto after =
         std::upper_bound(track.begin(), track.end(), t, [](double time, const auto& b) { return time < b.t; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// No certificate fails later than it should: motions that certificates have followed are played back, and at each time
-// each pair of features is farther apart than its next layer, exactly (proofs/theory.md, C1).
+// Tests that no certificate fails too late: plays back motions followed by certificates and checks exactly that each
+// pair of features is always farther apart than its next layer (proofs/theory.md, C1).
 #include "certificates_replay.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // --- The test of the test --------------------------------------------------------------------------------------------
 
-/// A vertex that goes down to `lowest` above an edge at rest and up again, all `offset` from the origin.
+/// A vertex that sinks to `lowest` above an edge at rest and rises again, at `offset` from the origin.
 std::vector<Track<2>> dip(double lowest, double offset) {
   const auto at = [offset](double t, double x, double y) { return Breakpoint<2>{t, {offset + x, offset + y}}; };
   return {{at(0, 0.5, 1), at(1, 0.5, lowest), at(2, 0.5, 1)},
@@ -64,7 +64,7 @@ TEST(Replay, TellsTheLastBitHoweverFarOut) {
   }
 }
 
-/// Between breakpoints that are not common to all, ends of pieces are no doubles.
+/// The chords begin at different times, so the coordinates at ends of pieces are not doubles.
 TEST(Replay, ChordsThatBeginWheneverAreExact) {
   const MotionSegment<2> vertex{0, 3, {0.5, 1}, {0.5, -0.5}};  // 0.5 (2 - t)
   const MotionSegment<2> left{0.1, 5, {0, 0}, {0, 0}}, right{-1, 7, {1, 0}, {1, 0}};
@@ -78,7 +78,7 @@ TEST(Replay, ChordsThatBeginWheneverAreExact) {
   EXPECT_FALSE(within(std::nextafter(2.5, 3), 3));
 }
 
-/// Against distances at many times, for all kinds of pairs in space.
+/// Compares with distances at many times, for all kinds of pairs in space.
 TEST(Replay, AgreesWithDistancesAtManyTimes) {
   noli::test::Random random(5);
   int farther = 0, within = 0;
@@ -107,7 +107,7 @@ TEST(Replay, AgreesWithDistancesAtManyTimes) {
     Replay<3> replay(tracks);
     Vector<3> n = Vector<3>::Zero();
     const double eta = 0.02 + 0.2 * random.unit();
-    if (std::abs(least - eta) < 0.02) continue;  // between two of the times it may be nearer
+    if (std::abs(least - eta) < 0.02) continue;  // between samples it may be nearer
     const bool claim = replay.stays_farther(s, 0, 3, eta, n);
     EXPECT_EQ(claim, least > eta) << round << " " << name(kind);
     (claim ? farther : within) += 1;
@@ -124,7 +124,7 @@ struct Sum {
   CertificateCounts certificates;
 };
 
-/// Sizes, places, speeds and times of all scales, by the number.
+/// Sizes, positions, speeds and times of all scales, chosen by `number`.
 DanceOptions options_of(std::uint64_t number) {
   noli::test::Random random(number);
   const auto one_of = [&random](std::initializer_list<double> values) {
@@ -187,7 +187,7 @@ void print(const char* what, const Sum& s) {
       static_cast<double>(s.replayed.boxed), s.replayed.least);
 }
 
-/// That there was something to be late for.
+/// Expects no late certificate, and enough events that one could have been late.
 void expect_busy(const Sum& s) {
   EXPECT_EQ(s.late, 0U);
   EXPECT_GT(s.certificates.activations * 40, s.kicks);
@@ -210,7 +210,7 @@ TEST(CertificatesReplayed, TheLiteralAlgorithmIsNeverLate) {
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
-constexpr std::uint64_t part = 10;  // they take thirty times as long
+constexpr std::uint64_t part = 10;  // takes thirty times as long
 #else
 constexpr std::uint64_t part = 1;
 #endif
@@ -230,7 +230,7 @@ TEST(CertificatesReplayed, SlowTheLiteralAlgorithmIsNeverLateInAMillionKicks) {
   expect_busy(sum);
 }
 
-/// Were they a little late, it would show.
+/// Faults that make certificates a little late must be found.
 class CertificatesWithAFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(CertificatesWithAFault, AreFoundLate) {

@@ -17,7 +17,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 
 V3 point(std::mt19937_64& random) { return {2 * unit(random) - 1, 2 * unit(random) - 1, 2 * unit(random) - 1}; }
 
-/// All weights of a feature of n vertices in steps of 1 / fine.
+/// All barycentric weights of a feature of n vertices in steps of 1 / fine.
 std::vector<std::array<double, 3>> mixtures(std::size_t n, int fine) {
   std::vector<std::array<double, 3>> result;
   for (int i = 0; i <= fine; ++i) {
@@ -31,7 +31,7 @@ std::vector<std::array<double, 3>> mixtures(std::size_t n, int fine) {
   return result;
 }
 
-/// Over a lattice of points of both features.
+/// The least distance over a lattice of points of both features.
 double least_distance(FeaturePair kind, const std::array<V3, 4>& x, int fine) {
   const std::size_t first = first_size(kind), size = point_count(kind);
   double least = 1e300;

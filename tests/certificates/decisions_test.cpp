@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What certificates decide is what the rationals say of the motion as it is extrapolated: no ulp late, and none early
-// where the failure time itself is asked for.
+// Compares the decisions of certificates with rational arithmetic on the extrapolated motion. No decision is late by an
+// ulp, and failure times are not early by an ulp either.
 #include "certificates/decisions.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 struct Nobody {};
 
-/// Random lines, slabs and plans about a place that is so far from the origin.
+/// Random lines, slabs and plans around a place at a distance from the origin.
 template <int Dim>
 class Things {
  public:
@@ -35,7 +35,7 @@ class Things {
   }
   Line<Dim> line() { return {vector() + Vector<Dim>::Constant(offset_), random_.unit(), vector()}; }
 
-  /// Beside a line, moving more or less with it: the line comes to it if it does not lead away.
+  /// A slab beside a line, moving roughly with it, so that the line reaches it unless it leads away.
   Slab<Dim> slab(const Line<Dim>& line, bool of_a) {
     Slab<Dim> slab;
     const Vector<Dim> n = vector();
@@ -53,7 +53,7 @@ class Things {
   double offset_;
 };
 
-/// The ends of plans and of what they hold are where decisions are hardest.
+/// Tests decisions where they are hardest: at the ends of plans and of what they hold.
 template <int Dim>
 void expect_ends_to_the_ulp(double offset) {
   noli::test::Random random(11);

@@ -13,7 +13,7 @@ namespace {
 using Ids = std::set<VertexId>;
 using Pair = std::pair<Ids, Ids>;
 
-/// All pairs of vertex-disjoint features, by the definition: which features there are, and which of them can meet.
+/// All pairs of vertex-disjoint features that can meet, by the definition.
 std::set<Pair> expected(const Mesh& mesh, int dimension) {
   std::set<Ids> edges, loose_edges, faces, vertices, points;
   for (const auto& f : mesh.faces) {
@@ -98,7 +98,7 @@ TEST(Features, PairsAreThoseOfTheDefinitionEachOnce) {
       if (!used.insert(ids).second) continue;
       mesh.faces.push_back({*ids.begin(), *std::next(ids.begin()), *std::next(ids.begin(), 2)});
     }
-    // A chain and two points, with vertices of their own but for one end.
+    // A chain and two points, which share no vertices with the rest except one end.
     mesh.edges = {{8, 9}, {9, 10}};
     mesh.points = {11};
     expect_each_once(mesh, 3);

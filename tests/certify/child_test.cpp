@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A child process, and what is known of it when somebody else in the process has waited for it.
+// Tests child processes, also when other code in the process has already waited for them.
 #include "certify/process/child.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Children, ItsEndIsAskedForOnce) {
 }
 
 TEST(Children, OneThatSomebodyElseWaitedForIsAnErrorAndNoEnd) {
-  const auto before = std::signal(SIGCHLD, SIG_IGN);  // it waits for itself
+  const auto before = std::signal(SIGCHLD, SIG_IGN);  // the system reaps the child
   Child child({"/bin/sh", "-c", "exit 0"}, {.out = Child::piped});
   EXPECT_THROW(child.finish({}), std::system_error);
   std::signal(SIGCHLD, before);

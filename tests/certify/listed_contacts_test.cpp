@@ -41,7 +41,7 @@ TEST(FairShares, UseAllThereIsAndDifferByOneAtMost) {
   }
 }
 
-/// What ContactList cuts earlier lists by.
+/// ContactList relies on this to shorten earlier lists.
 TEST(FairShares, NeverGrowWhenAStepComes) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -80,7 +80,7 @@ TEST(ContactList, SharesItsRoomAndPutsTheFirstFirst) {
   EXPECT_EQ(all[0].step, 1U);
   EXPECT_EQ(all[2].step, 3U);
   EXPECT_EQ(all[3].contact.vertices[0], 4U);
-  EXPECT_EQ(asked, 5U);  // three of the first step beside the known one, and two of the other
+  EXPECT_EQ(asked, 5U);  // three of the first step besides the known one, and two of the other
 }
 
 TEST(ContactList, OfManyStepsAsksForNoMoreThanAreListed) {

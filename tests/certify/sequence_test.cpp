@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sequence of frames in memory, decided step by step.
+// Decides a sequence of frames in memory step by step.
 #include <noli/sequence.h>
 
 #include <gtest/gtest.h>

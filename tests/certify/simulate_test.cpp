@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene as a program runs it: conditions, progress, stops.
+// Runs scenes through the public interface: errors, progress, stops.
 #include <noli/simulate.h>
 #include <noli/verify.h>
 
@@ -19,7 +19,7 @@
 namespace noli {
 namespace {
 
-/// A bar in the plane at rest: four windows.
+/// A bar in the plane at rest; takes four windows.
 constexpr const char* resting_bar = R"({
   "noli_scene": 1, "dimension": 2, "duration": 0.04, "window": 0.01, "gravity": [0, 0],
   "bodies": [{"name": "bar", "mesh": {"chain": {"points": [[0, 0], [1, 0]], "segments": 1}}, "steps": {"stretch": 1e-3},
@@ -65,7 +65,7 @@ TEST_F(SimulateInProcess, StopsAtACondition) {
   EXPECT_EQ(rest.windows_before, 2U);
 }
 
-/// A point that falls, with a breakpoint at each kick of gravity: windows end early; the run is stopped behind each.
+/// A falling point has a breakpoint at each kick of gravity, so windows end early. The run is stopped after each one.
 TEST_F(SimulateInProcess, GoesOnFromAWindowThatEndedEarly) {
   SimulateRequest asked = request();
   asked.scene = folder.write("falling.json", R"({
@@ -139,7 +139,7 @@ TEST_F(SimulateInProcess, VerifyingARunTellsItsProgress) {
 TEST_F(SimulateInProcess, ErrorsAreExceptions) {
   SimulateRequest asked = request();
   run_simulate(asked);
-  EXPECT_THROW(run_simulate(asked), UsageError);  // the run is there
+  EXPECT_THROW(run_simulate(asked), UsageError);  // the run exists
   asked.scene = folder.write("none.json", "{}");
   asked.run = folder / "other";
   EXPECT_THROW(run_simulate(asked), InputError);

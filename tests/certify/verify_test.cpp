@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of frames as a program verifies them: outcome, proof, progress, stops.
+// Verifies files of frames through the public interface: outcome, proof, progress, stops.
 #include <noli/verify.h>
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST_F(VerifyInProcess, AStopLeavesItUndecided) {
   EXPECT_TRUE(outcome.interrupted);
 }
 
-/// A checker that got only a part of the proof gives no verdict.
+/// A checker that received only part of the proof gives no verdict.
 TEST_F(VerifyInProcess, AProofThatAStopHasCutIsNotJudged) {
   const VerifyRequest request = falling(1.5);
   std::atomic<bool> stop = false;

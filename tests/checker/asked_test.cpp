@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is asked of a proof (proofs/FORMAT.md, section 6): each field in both directions, for claims and for witnesses.
+// Tests requirements on a proof (proofs/FORMAT.md, section 6): each field both ways, for claims and for witnesses.
 #include "run_writer.h"
 #include "support.h"
 
@@ -16,13 +16,13 @@ Proof three_frames() {
   proof.tokens.push_back(proof.tokens[0]);
   return proof;
 }
-/// The vertices 0 and 1, which are loose points, meet where they begin to move.
+/// Loose points 0 and 1 meet at the beginning of their motion.
 Proof meeting() {
   Proof proof{{{{0, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {4, 0, 0}}}, {{0}, {1}}};
   proof.tokens.clear();
   return proof;
 }
-/// Vertex 0 of cell i and vertex 1 of cell j, at the first time of step k.
+/// A witness of vertex 0 of cell i against vertex 1 of cell j, at the beginning of step k.
 std::string at_begin(std::uint32_t i, std::uint32_t j, int k = 0, std::uint32_t q = 1) {
   return raw(i) + raw(j) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(q) + poly({1}) + poly({-k, 1}) +
          uint(0) + sint(k) + sint(k);
@@ -41,7 +41,7 @@ std::string in_hex(const std::string& hash) {
   return "cells=" + text;
 }
 
-/// Asks for so many merged vertices of the proof's cells.
+/// Requires this number of merged vertices and the proof's cells.
 std::vector<std::string> merging(const Proof& proof, int merged, std::vector<std::string> more = {}) {
   more.push_back("merged=" + std::to_string(merged));
   more.push_back(in_hex(hash_of_cells(proof.frames[0].size(), proof.listed(), proof.labels)));
@@ -70,7 +70,7 @@ TEST(Asked, OfWitnessesTheirMotion) {
   Proof proof = refuted(meeting());
   EXPECT_VERDICT(proof.asked({}), 1, "meet");
   EXPECT_REJECTED(proof.asked({"motion=rest"}), "motion: the witness in step 1 says linear, asked was rest");
-  // No step is proved, so no frame is.
+  // No step is proved, so no frames are proved either.
   EXPECT_REJECTED(proof.asked({"motion=rest", "steps=1"}), "motion: the witness in step 1 says linear, asked was rest");
   EXPECT_REJECTED(proof.asked({"motion=run"}), "the claim: motion");
   proof.claim.source = 1;
@@ -96,7 +96,7 @@ TEST(Asked, TheDimension) {
     proof.claim.dimension = dimension;
     for (const char* const asked : {"dimension=2", "dimension=3"}) EXPECT_ACCEPTED(proof.asked({asked}));
   }
-  // Each frame in a plane of its own.
+  // Each frame lies in a plane of its own.
   for (auto& x : proof.frames[1]) x[2] = 7;
   EXPECT_ACCEPTED(proof.asked({"dimension=2"}));
   for (const std::size_t frame : {0u, 1u}) {
@@ -110,7 +110,7 @@ TEST(Asked, TheDimension) {
       EXPECT_ACCEPTED(uneven.asked({"dimension=2"}));
     }
   }
-  // One step that is not flat is enough.
+  // One step outside the plane is enough.
   proof = above();
   proof.frames = {proof.frames[0], proof.frames[0], proof.frames[0], proof.frames[0]};
   proof.tokens.assign(3, proof.tokens[0]);
@@ -155,7 +155,7 @@ TEST(Asked, Steps) {
   EXPECT_REJECTED(one.asked({}), "steps: the proof says 1, asked was all of them");
   EXPECT_REJECTED(one.asked({"steps=2"}), "steps: the proof says 1, asked was 2; --require steps=1 asks for that");
   EXPECT_VERDICT(one.asked({"steps=1"}), 0, "; the first 1 steps");
-  // What is behind is not looked at.
+  // Later frames are not read.
   one.frames[2].pop_back();
   EXPECT_ACCEPTED(one.asked({"steps=1"}));
   EXPECT_ACCEPTED(proof.asked({"steps=1"}));
@@ -231,7 +231,7 @@ TEST(Asked, AWitnessThatDoesNotCountHidesNone) {
   EXPECT_REJECTED(proof.asked({"steps=1"}), "distance: the witness in step 1");
 }
 
-/// Its two ends stay apart.
+/// An edge whose ends stay apart, with a strict claim.
 Proof one_strict_edge() {
   const Points x = {{0, 0, 0}, {4, 0, 0}};
   Proof proof{{x, x}, {{0, 1}}};
@@ -273,7 +273,7 @@ TEST(Asked, VerticesWithoutACell) {
   witness.cells_after = {{1}, {0}};
   witness.witness = {at_begin(1, 0)};
   EXPECT_REJECTED(witness.asked({}), "the claim: points");
-  // Both are listed: only that which is not makes the difference.
+  // Vertices 0 and 1 are both listed points; only an unlisted vertex makes a difference.
   witness = refuted(meeting());
   witness.claim.flags = 2;
   EXPECT_VERDICT(witness.asked({}), 1, "meet");
@@ -431,7 +431,7 @@ TEST(Asked, EmptyClaims) {
   is_empty(of({{0, 1, 2}}, F));
   is_empty(of({{0}}, F));
   is_not(of({{0}, {1}}, N + F + mx + F));
-  // Two degenerate faces of one vertex; and one of them beside another vertex.
+  // Two degenerate faces of one vertex; then one of them with another vertex.
   is_empty(of({{1, 1, 1}, {1, 1, 1}}, N + F + D(0) + none + none + F));
   is_not(of({{1, 1, 1}, {0}}, N + F + px + F));
   // One cell is compared with itself if the claim is strict.

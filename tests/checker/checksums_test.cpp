@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checker's checksums: examples of FIPS 180-4 and RFC 3720, by the processor's instructions and without.
+// Tests the checker's checksums with examples of FIPS 180-4 and RFC 3720, with and without processor instructions.
 #include "support.h"
 
 namespace noli::checker::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Claims and steps, right and wrong in each field; the files they are in; and what a damaged file may not say.
+// Tests claims and steps, right and wrong in each field, their files, and damaged files.
 #include <sys/resource.h>
 
 #include <random>
@@ -24,7 +24,7 @@ Proof with_step(const std::function<void(StepFields&)>& change) {
   change(proof.step);
   return proof;
 }
-/// Two steps: there, and stay.
+/// Two steps: the edge moves, then rests.
 Proof two_steps() {
   Proof proof = two_edges();
   proof.frames.push_back(proof.frames[1]);
@@ -264,8 +264,8 @@ TEST(Files, CutOffAnywhereSayNothing) {
   for (std::size_t n = 0; n < file.size(); ++n) EXPECT_EQ(two_edges().check(file.substr(0, n)).code, 3) << n;
 }
 
-/// Each bit of each payload, with checksums and hashes that fit. What may be accepted is another proof of the same
-/// claim, or of a claim that is printed.
+/// Flips each bit of each payload and repairs checksums and hashes. Only another proof of the same claim, or of a claim
+/// that is printed, may be accepted.
 TEST(Files, BitsThatMatter) {
   const Proof proof = two_edges();
   const auto groups = proof.groups();
@@ -284,7 +284,7 @@ TEST(Files, BitsThatMatter) {
       }
     }
   }
-  // Flag `points`, as no vertex is without a cell, and the sign of T0, which is 0.
+  // The flag `points`, because every vertex has a cell, and the sign of T0, which is 0.
   EXPECT_EQ(free, (std::set<std::string>{"CLAM 2", "STEP 15"}));
 }
 
@@ -314,7 +314,7 @@ TEST(Files, ThroughAPipe) {
         EXPECT_GT(write(ends[1], file.data() + i, std::min<std::size_t>(7, size - i)), 0);
       close(ends[1]);
     });
-    const Verdict found = verdict("/dev/fd/" + std::to_string(ends[0]), paths, Fields{});  // it is read once
+    const Verdict found = verdict("/dev/fd/" + std::to_string(ends[0]), paths, Fields{});  // the pipe is read once
     writer.join();
     close(ends[0]);
     EXPECT_EQ(found.code, size == file.size() ? 0 : 3) << found.words;

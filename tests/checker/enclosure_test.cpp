@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What enclosure.h takes for apart is apart in exact numbers: random paths that come as near as a few units of the
-// bounds, at all scales of places and times.
+// Tests that vertices which enclosure.h finds apart are apart in exact arithmetic, for random paths that come within a
+// few units of the error bounds, at all scales of positions and times.
 #include <random>
 
 #include "support.h"
@@ -20,7 +20,7 @@ double next_after(double t, long steps) {
   return t;
 }
 
-/// Times of one vertex in [t0, t1], in places very near to each other or to the ends.
+/// Times of one vertex in [t0, t1], some very close to each other or to the ends.
 std::vector<double> times(Draw& draw, double t0, double t1) {
   std::set<double> all = {t0, t1};
   for (long n = draw.number(0, 6); n > 0; --n) {
@@ -43,7 +43,7 @@ Motion motion(Draw& draw) {
   const long reach = draw.one_in(2) ? 1L << 50 : 1L << draw.number(1, 50), gap = draw.number(0, 40);
   std::vector<std::array<long, 3>> base;
   for (std::size_t v = 0; v < 4; ++v) {
-    const bool again = v >= 2 && draw.one_in(2);  // along the vertex two before, a little away
+    const bool again = v >= 2 && draw.one_in(2);  // follows vertex v - 2 at a small distance
     const std::size_t first = again ? m.begin[v - 2] : 0, count = again ? m.begin[v - 1] - first : 0;
     std::vector<double> t = times(draw, m.t0, m.t1);
     if (again) t.assign(m.times.begin() + static_cast<long>(first), m.times.begin() + static_cast<long>(first + count));
@@ -61,7 +61,7 @@ Motion motion(Draw& draw) {
   return m;
 }
 
-/// The number k of the 2^halvings parts of the step.
+/// Piece k of the 2^halvings equal pieces of the step.
 Piece piece(const Integers& exact, std::uint64_t k, std::uint64_t halvings) {
   const Piece& step = exact.step();
   const mpz_class duration = step.b - step.a, a = (step.a << halvings) + k * duration;
@@ -71,7 +71,7 @@ Piece piece(const Integers& exact, std::uint64_t k, std::uint64_t halvings) {
 int compare(std::uint64_t seed) {
   Draw draw{std::mt19937_64(seed)};
   const Motion m = motion(draw);
-  double unit = 1;  // of the positions, about
+  double unit = 1;  // rough size of positions
   for (const auto& x : m.x) unit = std::max(std::abs(x[0]), std::abs(x[1]));
   const bool distance = draw.one_in(2);
   const double eta = distance ? std::ldexp(unit, -static_cast<int>(draw.number(0, 50))) : 0;
@@ -105,7 +105,7 @@ TEST(Enclosures, NeverSayApartWhatIsNotSlow) {
   for (std::uint64_t seed = 1 << 20; seed < (1 << 20) + 300000; ++seed) compare(seed);
 }
 
-/// Two vertices that rest, at this x and at -1.
+/// Two vertices that rest at `x` and at -1.
 Motion two_at_rest(double x, double end = 1) {
   Motion m;
   m.t1 = end;
@@ -119,7 +119,7 @@ bool apart(const Motion& m, const std::array<std::int64_t, 3>& n, std::uint64_t 
 }
 
 TEST(Enclosures, RememberVerticesApart) {
-  // More vertices than boxes are remembered of; they rest at x = their number.
+  // More vertices than the number of boxes kept; vertex v rests at x = v.
   Motion m;
   m.t1 = 1;
   m.begin = {0};
@@ -138,8 +138,8 @@ TEST(Enclosures, RememberVerticesApart) {
   }
 }
 
-/// Two vertices, one of which goes up and down as the other does, above it by a thousandth of that, and at one of the
-/// breakpoints below.
+/// Two vertices that move up and down together. The first stays above the second by `above`, except at the breakpoint
+/// `below`, where it is below.
 Motion side_by_side(std::size_t breakpoints, std::size_t below, double above = 0.001) {
   Motion m;
   m.t1 = 1;

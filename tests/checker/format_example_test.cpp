@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The worked example of proofs/FORMAT.md is what the writer here writes, and is accepted.
+// Tests that the worked example of proofs/FORMAT.md has the bytes of the test's writer, and is accepted.
 #include <regex>
 
 #include "support.h"
@@ -8,7 +8,7 @@
 namespace noli::checker::test {
 namespace {
 
-/// The bytes of the lines "    OFFSET  BYTES  meaning"; a test failure where an offset is not that of its bytes.
+/// The bytes of the lines "    OFFSET  BYTES  meaning". A wrong offset is a test failure.
 std::string example_bytes() {
   static const std::regex line_of_bytes(R"(    ([0-9a-f]{4})  (([0-9a-f]{2} ?)+)( .*)?)");
   std::ifstream document(fs::path(NOLI_SOURCE_DIR) / "proofs" / "FORMAT.md");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes proofs (proofs/FORMAT.md) and runs (trajectory/FORMAT.md), right ones and such as nobody should write, and
-// asks the checker.
+// Writes valid and invalid proofs (proofs/FORMAT.md) and runs (trajectory/FORMAT.md), and calls the checker.
 #pragma once
 
 #include <filesystem>
@@ -75,7 +74,7 @@ inline std::string block(const std::string& kind, const std::string& payload) {
   const std::string all = kind + raw(std::uint64_t{payload.size()}) + payload;
   return all + raw(crc32c(all));
 }
-/// Groups of blocks, each with its commit.
+/// A file of groups of blocks, each followed by its commit.
 inline std::string block_file(const std::string& content, const std::vector<Blocks>& groups) {
   std::string file = std::string("\x89NOLI\r\n\x1a\1\0\0\0", 12) + content, running(32, '\0');
   std::size_t begin = 0;
@@ -94,10 +93,10 @@ struct Verdict {
   std::string words;
 };
 
-/// As they follow --require.
+/// Fields as written after --require.
 using Fields = std::vector<std::string>;
 
-/// What asks for just the claim of a proof; nothing if it has none.
+/// The fields that require exactly the claim of a proof; empty if it has none.
 inline Fields own_claim(const std::string& proof) {
   try {
     BlockFile file(proof, "PROF");
@@ -130,7 +129,7 @@ inline Fields own_claim(const std::string& proof) {
   }
 }
 
-/// Of a proof of which these fields are asked, or just what it claims.
+/// The verdict on a proof when these fields, or by default its own claim, are required.
 inline Verdict verdict(const std::string& proof, const std::vector<std::string>& paths,
                        const std::optional<Fields>& fields = std::nullopt) {
   try {
@@ -142,7 +141,7 @@ inline Verdict verdict(const std::string& proof, const std::vector<std::string>&
   }
 }
 
-/// A folder that goes with the test.
+/// A folder that is removed after the test.
 class Folder {
  public:
   std::string write(const std::string& name, const std::string& text) const {
@@ -205,17 +204,17 @@ inline std::string obj(const Points& x, const Lists& cells) {
   return text.str();
 }
 
-/// A proof about frames. What is not set is what is right.
+/// A proof about frames. Members that are not set get correct values.
 struct Proof {
   std::vector<Points> frames;
-  Lists cells{}, cells_after{};  ///< in the file; after merging, where they are others
-  std::string tree{};            ///< none: the cells one after another, each with all that follow
+  Lists cells{}, cells_after{};  ///< in the file; after merging, if they differ
+  std::string tree{};            ///< empty: each cell beside the node of all later ones
   std::vector<std::string> tokens{""};
-  std::vector<std::string> witness{};  ///< by step; empty where it has none
+  std::vector<std::string> witness{};  ///< by step; empty for steps without one
   ClaimFields claim{};
-  std::vector<std::uint32_t> labels{};  ///< block LABL, if there are any
-  std::optional<Fields> fields{};       ///< that are asked; none: just what it claims
-  StepFields step{};  ///< of all; number, times, hash and kind are set where `keep` does not say otherwise
+  std::vector<std::uint32_t> labels{};  ///< block LABL; empty: no block
+  std::optional<Fields> fields{};       ///< required fields; unset: its own claim
+  StepFields step{};  ///< of all steps; number, times and kind are filled in unless `keep`, an empty hash always
   bool keep = false;
 
   const Lists& listed() const { return cells_after.empty() ? cells : cells_after; }
@@ -273,13 +272,13 @@ struct Proof {
       paths.push_back(folder.write("f" + std::to_string(i) + ".obj", obj(frames[i], cells)));
     return verdict(folder.write("proof", file), paths, fields);
   }
-  /// When these fields are asked.
+  /// The verdict if these fields are required.
   Verdict asked(const Fields& of_it) const {
     Proof other = *this;
     other.fields = of_it;
     return other.check();
   }
-  /// The same proof with other tokens.
+  /// The verdict on the same proof with other tokens.
   Verdict with(const std::string& all) const {
     Proof other = *this;
     other.tokens = {all};
@@ -287,7 +286,7 @@ struct Proof {
   }
 };
 
-/// Edge 0-1 along y at x = 0, edge 2-3 along z at x = 4 that comes as near as x = 2.
+/// Edge 0-1 rests along y at x = 0. Edge 2-3 along z moves from x = 4 to x = 2.
 inline Proof two_edges() {
   return {{{{0, -1, 0}, {0, 1, 0}, {4, 0, -1}, {4, 0, 1}}, {{0, -1, 0}, {0, 1, 0}, {2, 0, -1}, {2, 0, 1}}},
           {{0, 1}, {2, 3}},

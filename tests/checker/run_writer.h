@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes runs (trajectory/FORMAT.md) and proofs about them, right ones and such as nobody should write.
+// Writes valid and invalid runs (trajectory/FORMAT.md) and proofs about them.
 #pragma once
 
 #include <functional>
@@ -66,7 +66,7 @@ inline std::string group_hash(const Blocks& blocks) {
   return sha256(all);
 }
 
-/// Edge 0-1 rests along y, edge 2-3 comes along x to 2 and goes back.
+/// Edge 0-1 rests along y; edge 2-3 moves along x to 2 and back.
 inline RunFile there_and_back() {
   RunFile run;
   const Line zero{{0, 2}, {{0, -1, 0}, {0, -1, 0}}}, one{{0, 2}, {{0, 1, 0}, {0, 1, 0}}},
@@ -82,8 +82,8 @@ struct RunProof {
   std::vector<std::string> tokens{token::N + token::F + token::mx + token::F};
   std::vector<std::uint32_t> labels{};
   std::string witness{};
-  std::size_t steps = 99;          ///< at most, of the proof
-  std::optional<Fields> fields{};  ///< that are asked; none: the proof's own claim
+  std::size_t steps = 99;          ///< most steps of the proof
+  std::optional<Fields> fields{};  ///< required fields; unset: its own claim
 
   Verdict check() const { return check(run.blocks()); }
   Verdict check(const std::vector<Blocks>& trajectory, const Blocks& behind_claim = {}) const {

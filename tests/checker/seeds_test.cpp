@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs about the worked example's edges that reached something new when good ones were broken at random: what the
-// checker says of each is in its name. The fuzz target of the checker begins with the same files.
+// Tests damaged proofs about the worked example's edges, found by mutation because they reached new code. The name of
+// each file states the checker's answer. The fuzz target of the checker starts from the same files.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The words without numbers and signs, as they stand in the name of a file.
+/// The words without numbers and signs, as in the names of files.
 std::string as_name(const std::string& words) {
   std::string name;
   for (const char c : words) {

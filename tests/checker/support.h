@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What tests ask of a verdict.
+// Defines expectations on verdicts.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include "proof_writer.h"
 
-/// A verdict with this code, words that contain this.
+/// Expects a verdict with this code whose words contain `contains`.
 #define EXPECT_VERDICT(expression, expected, contains)                         \
   do {                                                                         \
     const Verdict found_ = (expression);                                       \

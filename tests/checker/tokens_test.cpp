@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each token where it may be used, and where one of its conditions does not hold (proofs/FORMAT.md, section 3).
+// Tests each token where it is allowed, and with each of its conditions violated (proofs/FORMAT.md, section 3).
 #include "support.h"
 
 namespace noli::checker::test {
@@ -8,9 +8,9 @@ namespace {
 
 using namespace token;
 
-/// The tokens that are right for two_edges(), with these for its pair of cells.
+/// The tokens of a valid proof of two_edges(), with `pair` for its pair of cells.
 std::string of_pair(const std::string& pair) { return N + F + pair + F; }
-/// An edge of which each end is separated from the other.
+/// An edge whose ends are separated from each other.
 std::string of_itself(const std::string& up, const std::string& down) {
   return D(0) + D(0) + none + up + D(0) + down + none;
 }
@@ -27,7 +27,7 @@ Proof corner() {
   return {{x, x}, {{0, 1}, {1, 2}}, {}, "", {of_pair(D(0) + mx + my)}};
 }
 
-/// Edges 0-1, 1-2, 2-3 along x, the one in the middle shorter than the distance, which counts from two edges on.
+/// Edges 0-1, 1-2, 2-3 along x. The middle one is shorter than the distance, which counts from two edges on (ring 2).
 Proof chain() {
   const Points x = {{-100, 0, 0}, {0, 0, 0}, {1, 0, 0}, {100, 0, 0}};
   const std::string c01 = W({1}) + mx + W({1, 1, 2}) + mx + none + mx + D(0) + mx + mx,
@@ -50,20 +50,19 @@ TEST(Tokens, TIsForAllIntervals) {
 }
 
 TEST(Tokens, THasTheFirstHalfOnTop) {
-  // x of edge 1 is 1 at first, -1 at last; edge 0 does the same, the other way.
+  // Edge 1 moves from x = 8 to -4, edge 0 from -8 to 4, and above edge 1 at the end.
   Proof proof = two_edges();
   proof.frames = {{{-8, -1, 0}, {-8, 1, 0}, {8, 0, -1}, {8, 0, 1}}, {{4, -1, 8}, {4, 1, 8}, {-4, 0, -1}, {-4, 0, 1}}};
   EXPECT_ACCEPTED(proof.with(of_pair(T + mx + pz)));
   EXPECT_REJECTED(proof.with(of_pair(T + pz + mx)), "does not separate");
 }
 
-/// Points one after another along x, in a tree that halves them; of a node over more than 1,024 of them the checker
-/// keeps no list.
+/// Points in a row along x, in a tree that halves them. The checker keeps no list for a node of more than 1,024 points.
 struct Row {
   Proof proof;
   std::string tokens;
 
-  /// `first`: how many are in the root's left child.
+  /// `first`: the number of points in the root's left child.
   Row(std::uint32_t count, std::uint32_t first) {
     Points x;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -95,7 +94,7 @@ struct Row {
 TEST(Tokens, GroupsOfManyVerticesAreSeparatedByAllOfThem) {
   Row row(2200, 1100);
   EXPECT_ACCEPTED(row.proof.with(row.tokens));
-  // The last of the first half goes behind the first of the second: only the root's token is wrong.
+  // The last point of the first half moves past the first of the second: only the root's token is wrong.
   row.proof.frames[1][1099][0] = 4402;
   EXPECT_REJECTED(row.proof.with(row.tokens), "does not separate");
   Row lopsided(1200, 1);
@@ -242,7 +241,7 @@ TEST(Tokens, W) {
   EXPECT_REJECTED(first(W({1, 0x7fffffff, 2})), "has not its vertices");
   EXPECT_REJECTED(first(W({1, 2, 2})), "has not its vertices");  // cell 2 has not 1
   EXPECT_REJECTED(first(W({1, 1, 3})), "has not its vertices");  // cell 1 has not 3
-  EXPECT_REJECTED(first(W({1}) + W({1})), "does not join");      // it was dropped
+  EXPECT_REJECTED(first(W({1}) + W({1})), "does not join");      // already dropped
   EXPECT_REJECTED(first(W({1}) + mx + mx), "does not separate");
   EXPECT_REJECTED(first(W({1}) + mx + W({1, 1, 2}) + mx + none + mx + W({1})), "W is");  // disjoint
   EXPECT_REJECTED(chain().with(W({1})), "W is");
@@ -317,7 +316,7 @@ TEST(Trees, HaveEachCellOnce) {
   EXPECT_REJECTED(with(std::string(1 << 16, '\0')), "too deep");
 }
 
-/// Points on a line, in a tree of which each node has a leaf as its left child or as its right one.
+/// Points on a line, in a tree where the left (or right) child of each node is a leaf.
 Proof comb(std::uint32_t n, bool left) {
   Proof proof;
   proof.frames.resize(2);

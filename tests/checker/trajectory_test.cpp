@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs: right ones, and each thing that a run must not be. Frames: PLY and OBJ (proofs/FORMAT.md, section 9).
+// Tests valid runs and every violation of their format, and frames as PLY and OBJ (proofs/FORMAT.md, section 9).
 #include "run_writer.h"
 #include "support.h"
 
@@ -20,7 +20,7 @@ TEST(Runs, AreAccepted) {
   }
 }
 
-/// Points of as many groups as there are, or all scripted: pairs of them would be too many to list.
+/// Points of many groups, or all scripted: their pairs would be too many to list.
 TEST(Runs, PairsOfLabelsAreCounted) {
   RunProof proof;
   const std::size_t points = 65536;
@@ -35,7 +35,7 @@ TEST(Runs, PairsOfLabelsAreCounted) {
   proof.run.labels.assign(points, '\0');
   EXPECT_REJECTED(proof.check(), "other pairs");
   proof.claim.excluded = {{0, 2}};
-  EXPECT_REJECTED(proof.check(), "other cells");  // as those of the claim are without labels
+  EXPECT_REJECTED(proof.check(), "other cells");  // the claim's cells have no labels
 }
 
 TEST(Runs, HaveTheirOwnLabels) {

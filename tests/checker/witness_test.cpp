@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Witnesses (proofs/FORMAT.md, section 5): those that hold, and one for each condition that does not.
+// Tests witnesses (proofs/FORMAT.md, section 5): valid ones, and one that violates each condition.
 #include "support.h"
 
 namespace noli::checker::test {
@@ -25,8 +25,8 @@ struct WitnessFields {
   }
 };
 
-/// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2,
-/// 1 + t.
+/// Point 0 rests at the origin. Edge 1-2 passes over it when (1 + t)^2 = 2: its ends are at (-(1 + t), -1) and
+/// (2, 1 + t).
 Proof root_two() {
   return {{{{0, 0, 0}, {-1, -1, 0}, {2, 1, 0}}, {{0, 0, 0}, {-2, -1, 0}, {2, 2, 0}}}, {{1, 2}, {0}}, {}, "", {}};
 }
@@ -53,7 +53,7 @@ TEST(Witnesses, AtTheSquareRootOfTwo) {
 }
 
 TEST(Witnesses, WithAWeightThatIsZero) {
-  // g divides it, and it is negative before its root.
+  // g divides it, but it is negative before its root.
   EXPECT_VERDICT(check(changed([](auto& w) { w.q.push_back({1, w.g}); })), 1, "");
   EXPECT_REJECTED(check(changed([](auto& w) { w.q.push_back({1, {-1, 3}}); })), "may be negative");
   EXPECT_REJECTED(check(changed([](auto& w) { w.p.push_back({0, {-1}}); })), "may be negative");
@@ -160,7 +160,7 @@ TEST(Witnesses, BehindOneStepsMayBeMissing) {
   proof.tokens = {"", N + F + S(1, -1, 0) + F, N + F + S(1, -1, 0) + F};
   auto groups = proof.groups();
   const Verdict all = proof.check(block_file("PROF", groups));
-  EXPECT_EQ(all.code, 3) << all.words;  // the edge goes on through the point: S does not hold
+  EXPECT_EQ(all.code, 3) << all.words;  // the edge passes through the point: S does not hold
   groups.pop_back();
   groups.pop_back();
   EXPECT_VERDICT(proof.check(block_file("PROF", groups)), 1, "");

@@ -154,7 +154,7 @@ void DiskModel::apply(const DiskAction& action) {
   }
 }
 
-/// The synced bytes, with some of what is pending.
+/// The synced bytes, with some of the pending changes.
 std::string DiskModel::left_of(const Content& content, std::mt19937_64& random) {
   std::string bytes = content.synced;
   std::vector<Change> pending = content.pending;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a loss of power may leave of the files of one folder, by what a program did to them (preload/record.cpp).
+// Models what a loss of power may leave of the files in one folder, given a program's actions on them
+// (preload/record.cpp).
 //
 // Notation
 //   action    of the program: a write, a sync, a rename, ...
-//   synced    survives: a file's bytes since fsync() of the file, its name since fsync() of its folder
-//   pending   done, but not synced: each such action may survive or not, whatever comes before or after it; of a write
-//             any part may, and what is missing before a part that survived is zeros
+//   synced    survives: a file's bytes after fsync() of the file, its name after fsync() of its folder
+//   pending   done, but not synced: each such action may survive or not, independently of the others. Any part of a
+//             write may survive; missing bytes before that part read as zeros
 //
-// What this does not do: it knows one folder, and no folders in it.
+// The folder must have no subfolders.
 #pragma once
 
 #include <cstdint>
@@ -31,22 +32,22 @@ struct DiskAction {
   std::string bytes;
 };
 
-/// Throws std::runtime_error when the record is not as record.cpp says.
+/// Throws std::runtime_error if the record does not follow the format in record.cpp.
 std::vector<DiskAction> read_actions(std::string_view record);
 
-/// A disk after the first of a program's actions.
+/// The state of a disk after some of a program's actions.
 class DiskModel {
  public:
   explicit DiskModel(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Another action was done. Throws std::runtime_error when it does not fit those before.
+  /// Applies the next action. Throws std::runtime_error if it does not fit the previous ones.
   void apply(const DiskAction& action);
 
-  /// Writes to a new folder what a loss of power may leave now.
+  /// Writes to a new folder a state that a loss of power may leave now.
   void leave(const std::filesystem::path& target, std::mt19937_64& random) const;
 
  private:
-  /// Bytes to be at an offset; with `cut`, all behind the offset goes first.
+  /// Writes bytes at an offset; with `cut`, first truncates the file there.
   struct Change {
     std::size_t offset = 0;
     std::string bytes;
@@ -59,10 +60,10 @@ class DiskModel {
   };
   using File = std::shared_ptr<Content>;
   struct Open {
-    File file;  ///< nothing: the folder
+    File file;  ///< null: the folder
     std::size_t offset = 0;
   };
-  /// A name that gets another file, or none; and one that goes with it.
+  /// Gives a name another file, or none, and removes the name `gone`.
   struct Naming {
     std::string name;
     File file;

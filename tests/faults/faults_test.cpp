@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each call of the system that a command makes fails once, or from then on: memory, files, the disk. The answer is then
-// the true one, or it is that there is none (exit 2, 3 or 4, with a message); never a signal, never exit 0 with less
-// than the truth; and every run that was begun goes on to the same bytes.
+// Makes each system call of a command fail, once or from then on: memory, files, the disk. The command must then give
+// the true answer or none (exit 2, 3 or 4, with a message). It must never end by a signal, or exit with 0 and an
+// incomplete answer. Every run that was begun resumes to the same bytes.
 //
 // Notation
-//   kind    of calls, as preload/faults.cpp counts them
+//   kind    of a call, as counted by preload/faults.cpp
 //   number  of a call among those of its kind, from 1
 //
-// The fast tests take some numbers of each kind, the slow ones more; with NOLI_EVERY_FAULT=1 the slow ones take all.
+// The fast tests try some numbers of each kind, the slow ones more; with NOLI_EVERY_FAULT=1 the slow ones try all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@
 namespace noli::app_tests {
 namespace {
 
-/// In arguments "IN/" is the folder of what is read, made once, and "OUT/" one that is empty before each call.
+/// In arguments, "IN/" is the input folder, made once, and "OUT/" is a folder that is emptied before each call.
 struct Command {
   const char* name;
   std::vector<std::string> arguments;
-  const char* program = "noli";  ///< in which calls fail; it may be a child of noli
-  const char* begun = nullptr;   ///< copied from IN to OUT/run before
+  const char* program = "noli";  ///< whose calls fail; may be a child of noli
+  const char* begun = nullptr;   ///< copied from IN to OUT/run first
 };
 
 void PrintTo(const Command& command, std::ostream* out) { *out << command.name; }
@@ -58,7 +58,7 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-/// What a call leaves: its code, its words, its files.
+/// The result of a call: exit code, output, files.
 struct Outcome {
   int exit_code = -1;
   std::string out, err;
@@ -119,7 +119,7 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     return words;
   }
 
-  /// Documents without what a clock decides.
+  /// The file without anything that depends on the clock.
   static std::string content_of(const fs::path& path) {
     std::string bytes = bytes_of(path);
     if (path.extension() == ".html" || path.filename() == "log.jsonl" || path.extension() == ".h5") return "";
@@ -147,7 +147,7 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     return outcome;
   }
 
-  /// How many calls of the kind the command makes.
+  /// The number of calls of the kind that the command makes.
   std::uint64_t count() const {
     const std::string path = out_path("counts");
     fs::remove(path);
@@ -165,7 +165,7 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     return std::ranges::any_of(command().arguments, [](const auto& word) { return word == "OUT/run"; });
   }
 
-  /// A run that a fault has cut short goes on to the same bytes.
+  /// Expects that a run cut short by a fault resumes to the same bytes.
   void expect_goes_on(const Outcome& whole) const {
     const std::string run = out_path("now/run");
     const bool there = fs::exists(run);
@@ -190,7 +190,7 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     if (makes_a_run()) expect_goes_on(whole);
   }
 
-  /// Numbers from 1 to `end`: all, or so many, the first and last among them.
+  /// Numbers from 1 to `end`: all, or at most `most` of them, with the first and the last.
   static std::vector<std::uint64_t> numbers(std::uint64_t end, std::uint64_t most) {
     std::vector<std::uint64_t> list;
     for (std::uint64_t i = 0; i < std::min(end, most); ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run loses power at random moments: between any two actions on its files, with what is not synced lost, reordered or
-// torn (disk_model.h). Each window that the log told of by then is there, bit for bit, and the run goes on to the same
-// bytes.
+// Lets a run lose power at random moments, between any two actions on its files. Unsynced changes are lost, reordered
+// or torn (disk_model.h). Each window that the log reported by then must survive, bit for bit, and the run must resume
+// to the same bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ class PowerLoss : public Simulate {
     return count;
   }
 
-  /// Of each window that a folder holds the hash of what is in it.
+  /// The content hash of each window in a folder.
   static std::vector<Sha256Digest> windows_in(const fs::path& run) {
     std::vector<Sha256Digest> windows;
     RunReader reader(run);
@@ -43,7 +43,7 @@ class PowerLoss : public Simulate {
     return windows;
   }
 
-  /// At least those of which the log told, and none that are other ones.
+  /// Expects at least the windows that the log reported, and none that differ from `whole`.
   static void expect_windows(const fs::path& left, std::size_t told, const std::vector<Sha256Digest>& whole) {
     if (told == 0) return;
     const std::vector<Sha256Digest> there = windows_in(left);

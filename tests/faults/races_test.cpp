@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two and three commands at work on one folder of a run, begun at random moments: one of those that write wins, the
-// others say who has the folder, those that read say what is there, and in the end the folder holds what the winner
-// has reported.
+// Starts two or three commands on one run folder at random moments. One writer wins, and the others report that the
+// folder is in use. Readers report what they find. In the end the folder holds what the winner reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs: whatever the bytes, an InputError of one line, or windows. A run with all its world lines is written again from
-// what was read: it has the bytes that were read, up to the last commit.
+// Fuzzes the reader of runs: any bytes give windows or an InputError of one line. A run with all its world lines is
+// written again from what was read and must have the same bytes, up to the last commit.
 //
-// Input: 'R' and the bytes of a file, or 'B' and blocks, which are made a file with checksums and commits that fit (no
-// mutation would find those). A block is a byte for its kind, two for its length, and the payload.
+// Input: 'R' and the bytes of a file, or 'B' and blocks. The blocks become a file with correct checksums and commits,
+// which no mutation would find. A block is a byte for its kind, two for its length, and the payload.
 #include <array>
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@ constexpr std::array kinds = {
     noli::block_format::commit, kind::head,  kind::mesh, kind::labels,     kind::exclusions, kind::window, kind::lines,
     kind::lines_hash,           kind::frame, kind::ends, kind::velocities, kind::state};
 
-/// The file of these blocks.
+/// The file made of these blocks.
 std::string file_of_blocks(std::string_view rest) {
   noli::testing::MemoryFile file;
   noli::BlockWriter writer(noli::testing::sink_to(file), kind::content);

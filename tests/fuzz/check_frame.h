@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold for every frame that a reader lets pass, whatever the bytes were.
+// Checks what must hold for every frame that a reader accepts.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace noli::fuzz {
 
-/// Ends the run as a finding.
+/// Aborts, which the fuzzer reports as a finding.
 inline void require(bool condition) {
   if (!condition) std::abort();
 }
@@ -36,7 +36,7 @@ inline void check_positions(const Frame& frame) {
   }
 }
 
-/// Written and read again, the frame is the same, bit for bit.
+/// Requires that writing and reading the frame gives the same frame, bit for bit.
 inline void check_round_trip(const Frame& frame, PlyEncoding encoding) {
   const Frame again = parse_ply(format_ply(frame, encoding), "written");
   require(again.mesh == frame.mesh);
@@ -46,8 +46,8 @@ inline void check_round_trip(const Frame& frame, PlyEncoding encoding) {
       [](const Position& a, const Position& b) { return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b); }));
 }
 
-/// Calls `parse` on the input: it must give a good frame, or an InputError of one line that begins with the file's
-/// name.
+/// Calls `parse` on the input. It must return a valid frame, or throw an InputError of one line that begins with the
+/// file's name.
 template <class Parse>
 int check_reader(const std::uint8_t* data, std::size_t size, Parse&& parse) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checker of proofs: whatever the bytes, a verdict; of what touches, never that nothing does, and of what does
-// not, never that it does.
+// Fuzzes the proof checker: any bytes give a verdict. It never accepts a proof that touching frames stay apart, nor a
+// witness of contact for frames that stay apart.
 //
 // Input, by its first byte:
 //   P       a proof file, about edges that pass each other
@@ -16,12 +16,12 @@
 namespace {
 
 using namespace noli::checker::test;
-/// Ends the run as a finding.
+/// Aborts, which the fuzzer reports as a finding.
 void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/// A file in memory with a name.
+/// A file in memory that has a path.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view bytes) : file_(memfd_create("input", 0)) {
@@ -36,7 +36,7 @@ class MemoryFile {
   int file_;
 };
 
-/// A folder with frames, made once.
+/// Writes the frames to a folder that exists once per process; returns their paths.
 std::vector<std::string> frames(const Proof& proof, const std::string& prefix) {
   static const Folder folder;
   std::vector<std::string> paths;

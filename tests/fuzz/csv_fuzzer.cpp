@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Query files: whatever the bytes, an InputError of one line, or queries that come back bit for bit when written and
-// read again.
+// Fuzzes the reader of query files: any bytes give an InputError of one line, or queries that stay the same, bit for
+// bit, when written and read again.
 #include "check_frame.h"
 #include "trajectory/formats/query_csv.h"
 

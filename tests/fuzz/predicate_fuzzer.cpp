@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Predicates: whatever the query, kernel and oracle agree on contact, kind and first time.
+// Fuzzes the predicates: for any query, kernel and oracle agree on contact, kind and first time.
 //
-// Input: a byte that says which pair of features, which dimension and how coordinates are coded, then the coordinates
-// of the points at t = 0, then those at t = 1; bytes that are missing are 0.
-//   coded   small integers in units of a power of two, perhaps an ulp off: three bytes each. Coincidences are likely.
-//   raw     eight bytes each, a double; where it is not finite its exponent is cleared.
-// Or a file of `noli fuzz queries --corpus`: rows of a query as CSV and the line that says what it is about.
+// Input: a byte for the pair of features, the dimension and the coding of coordinates, then the coordinates of the
+// points at t = 0, then those at t = 1. Missing bytes are 0.
+//   coded   three bytes each: small integers in units of a power of two, perhaps an ulp off. Coincidences are likely.
+//   raw     eight bytes each: a double. If it is not finite, its exponent is cleared.
+// Or a file of `noli fuzz queries --corpus`: the rows of a query as CSV and the line that describes it.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -88,7 +88,7 @@ void compare(Bytes& bytes, bool raw) {
   compare(decode<Pair, Dim>(bytes, raw));
 }
 
-/// Whether it was a text, and its queries have been compared.
+/// Compares the queries of a text; false if the input is not such a text.
 bool compare_text(std::string_view text) {
   const auto type = noli::audit::saved_type(text);
   if (!type) return false;

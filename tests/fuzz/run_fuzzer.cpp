@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the commands do with the folder of a run: whatever numbers are in its motion and its states, under checksums
-// that fit, they end with an answer, or say what is wrong with the input.
+// Fuzzes the commands that read the folder of a run: for any numbers in its motion and states, with correct checksums,
+// they give an answer or say what is wrong with the input.
 //
-// Input: changes of the blocks of a small run, as tests/trajectory/mutate_run.h has them.
+// Input: changes to the blocks of a small run, as defined in tests/trajectory/mutate_run.h.
 #include <unistd.h>
 
 #include <filesystem>
@@ -40,7 +40,7 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A run that is whole, made once, and the place of one that is not.
+/// An intact run, made once, and the path of its damaged copy.
 struct Runs {
   noli::test::TemporaryFolder folder;
   fs::path scene = folder / "scene.json", whole = folder / "whole", run = folder / "run";
@@ -71,7 +71,7 @@ struct Runs {
   }
 };
 
-/// Any other exception is a finding.
+/// Calls the command. Exceptions other than these are findings.
 template <class Command>
 void ends(const Command& command) {
   try {
@@ -92,7 +92,7 @@ void verify(const fs::path& run) {
   run_verify_motion(request);
 }
 
-/// Into a page that says nothing yet.
+/// Writes the report of the run to an empty page.
 void report_page(const fs::path& run) {
   ReportPage page;
   page.page = {{"title", ""}, {"verdict", {{"word", "report"}, {"tone", "neutral"}, {"lines", Json::array()}}}};

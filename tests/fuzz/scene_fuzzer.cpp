@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes: whatever the text, an InputError of one line, or a scene that can be explained (so its meshes, forces and
-// steps are made), or that is refused by one line then.
+// Fuzzes the reader of scenes: any text gives an InputError of one line, or a scene that can be explained, which builds
+// its meshes, forces and steps, or is then refused in one line.
 //
-// Input: 'S' or 'F' for the short or full form and then the text, or the text alone, in full form: so a scene's file is
-// an input as it is. Scenes of more than a few hundred vertices are read only, and so are those that name files.
+// Input: 'S' or 'F' for the short or full form, then the text; or only the text, in full form, so that a scene file is
+// an input as it is. Scenes of more than a few hundred vertices and scenes that name files are only read.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -21,7 +21,7 @@ using noli::integrator::Json;
 
 constexpr double many = 500;
 
-/// About how large a mesh becomes, by the whole numbers of its description: each multiplies it.
+/// Estimates the size of a mesh as the product of the integers in its description.
 double size_of(const Json& value, const std::string& name) {
   if (value.is_number_integer()) {
     const double n = value.get<double>();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of 60 decimal digits, and stencils of them.
+// Defines numbers of 60 decimal digits, and stencils of them.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
-// After the numbers that it is about.
+// Must come after the number type.
 #include <boost/multiprecision/eigen.hpp>
 
 #include "integrator/vector.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A window that has too many breakpoints ends early: after all events of the time at which it has as many as the model
-// allows, counted in the serial order of events. The next one goes on from there.
+// Tests that a window with too many breakpoints ends early: after all events of the time at which it has as many as the
+// model allows, counted in the serial order of events. The next window continues from there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 struct Case {
   std::string scene, steps;
   std::size_t most;   ///< breakpoints
-  double window = 0;  ///< its length [s]; 0: as the scene says
+  double window = 0;  ///< length of a window [s]; 0: the scene's
 };
 
 void PrintTo(const Case& of, std::ostream* out) { *out << of.scene << " " << of.steps << " " << of.most; }
@@ -76,7 +76,7 @@ class BoundedWindows : public testing::TestWithParam<Case> {
     return model;
   }
 
-  /// Where the window after `before` has to end: from one that is as long as it likes.
+  /// Where the window after `before` must end, computed from a window without a limit.
   template <int Dim>
   static double expected_end(const Snapshot<double, Dim>& before) {
     const Model<double, Dim> model = BoundedWindows::model<Dim>(std::numeric_limits<std::size_t>::max());
@@ -130,7 +130,7 @@ TEST_P(BoundedWindows, EndAfterAllEventsOfThatTimeAndGoOnToTheByte) {
 INSTANTIATE_TEST_SUITE_P(, BoundedWindows,
                          testing::Values(Case{"swinging_cloth", "grouped", 1000}, Case{"swinging_cloth", "own", 1000},
                                          Case{"swinging_cloth", "own", 1},
-                                         // So many that rows of forces fire together up to nearly the end.
+                                         // So many breakpoints that forces fire in batches almost up to the end.
                                          Case{"swinging_cloth", "own", 90'000, 0.5}, Case{"hanging_chain", "own", 200},
                                          Case{"plane_compactor", "grouped", 700}, Case{"plane_compactor", "own", 700},
                                          Case{"stack", "grouped", 5000}, Case{"stack", "own", 3001},

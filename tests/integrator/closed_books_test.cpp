@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The books are closed: every joule that free particles gain or lose has an entry, and what is left of the change of
-// K + V is what finite steps do (integrator/books.h, State::energy).
+// Tests that the energy accounts are complete: every joule that free particles gain or lose is booked. The rest of the
+// change of K + V is the error of finite steps (integrator/books.h, State::energy).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,14 +23,14 @@ namespace {
 using test::ball_and_floor;
 using test::with_contact;
 
-/// Where a run ends that goes no farther, whichever comes first.
+/// The limits of a run; it ends at the first one that it reaches.
 struct Limit {
   int windows;
   std::uint64_t events = 1'000'000'000;          ///< of forces
   std::uint64_t contact_events = 1'000'000'000;  ///< of layers of contact
 };
 
-/// The largest |dK - booked work| of a window, over the energies in play; `all`: what was booked.
+/// The largest |dK - booked work| of a window, over the energies in play; adds what was booked to `all`.
 template <int Dim>
 double worst_gap(const Model<double, Dim>& model, Limit limit, Books<double, Dim>& all) {
   Simulation<double, Dim> simulation(model);
@@ -68,7 +68,7 @@ class ClosedBooks : public testing::TestWithParam<std::string> {
  public:
   const Scene scene = read_scene(std::filesystem::path(NOLI_SOURCE_DIR) / "scenes" / (GetParam() + ".json"));
 
-  /// Up to so many events of forces, or 100,000 of contact; tells how many of contact there were.
+  /// Runs up to `events` events of forces, or 100,000 of contact; returns the number of contact events.
   std::uint64_t expect_closed(std::uint64_t events) const {
     return scene.dimension == 2 ? expect_closed<2>(events) : expect_closed<3>(events);
   }
@@ -128,8 +128,8 @@ Bounce bounce(double restitution) {
   return {restitution, all.of(ForceKind::contact), begin, simulation.state().energy()};
 }
 
-/// A ball that comes with v and leaves with sqrt(e) v has lost (1 - e) m v^2 / 2 to restitution, up to what finite
-/// steps do, and to nothing else.
+/// A ball that arrives with v and leaves with sqrt(e) v loses (1 - e) m v^2 / 2 to restitution and nothing to anything
+/// else, up to the error of finite steps.
 TEST(RestitutionBooks, HaveWhatTheBallHasLost) {
   for (const double restitution : {1.0, 0.5, 0.01}) {
     const Bounce found = bounce(restitution);
@@ -142,14 +142,14 @@ TEST(RestitutionBooks, HaveWhatTheBallHasLost) {
   EXPECT_EQ(bounce(1).contact.restitution_work, 0);
 }
 
-/// Then a ball that parts gets no impulse at all, and yet the potential falls.
+/// With e = 0, a receding ball gets no impulse, but the potential still falls; that must be booked.
 TEST(RestitutionBooks, HaveWhatNoImpulseGives) {
   const Bounce found = bounce(0);
   EXPECT_LT(found.contact.restitution_work, -0.01 * found.begin);
   EXPECT_NEAR(found.end - found.begin, found.contact.restitution_work, 0.01 * found.begin);
 }
 
-/// Nothing else tells how much contact has at time 0, and a run that begins within a layer begins with it.
+/// A run that begins within a layer begins with its potential, which only contact_at_start() reports.
 TEST(ContactAtStart, IsThePotentialOfLayersThatActThere) {
   Model<double, 2> model = with_contact(ball_and_floor(0.09, 0), {0.1, 1000, 0.02, 1, 0});
   Simulation<double, 2> simulation(model);
@@ -170,7 +170,7 @@ struct Towed {
   double step;
 };
 
-/// One end of a spring follows a smooth path, the other is free. Corners of the path fall on events.
+/// One end of a spring follows a smooth path, the other is free. The path's corners coincide with events.
 Model<double, 2> towed(const Towed& how) {
   Model<double, 2> model;
   model.x = {{0, 0}, {1, 0}};
@@ -189,7 +189,7 @@ Model<double, 2> towed(const Towed& how) {
   return model;
 }
 
-/// The entry `integration` at its largest: what is left of d(K + V) when all that was booked is taken off.
+/// The largest `integration` entry: the change of K + V minus everything booked.
 double integration(const Towed& how) {
   Simulation<double, 2> simulation(towed(how));
   const double begin = simulation.state().energy();
@@ -214,7 +214,7 @@ TEST(ScriptBooks, WhatIsLeftFallsFourfoldWhenStepsAreHalved) {
   }
 }
 
-/// Of two scripts: what pulls gives, what holds at rest gives nothing.
+/// Of two scripts, the pulling one does work, and the one that holds a vertex at rest does none.
 TEST(ScriptBooks, AreByScript) {
   Model<double, 2> model = test::chain<2>({{0, 0}, {1, 0}, {2, 0}}, false, 100, 1);
   model.forces.turnings = {};
@@ -230,9 +230,9 @@ TEST(ScriptBooks, AreByScript) {
 
 // --- Damping ---------------------------------------------------------------------------------------------------------
 
-/// A damped oscillator, (hw)^2 far from small. What leapfrog keeps without damping is m v^2 / 2 + k s s' / 2, s and s'
-/// being the strains at both ends of a step (Hairer, Lubich, Wanner 2003, section 1.4, for the linear oscillator); an
-/// impulse changes it by the work that it does with the velocity of the middle of the event. Velocities after the kick
+/// A damped oscillator whose (hw)^2 is not small. Without damping, leapfrog conserves m v^2 / 2 + k s s' / 2, where s
+/// and s' are the strains at both ends of a step (Hairer, Lubich, Wanner 2003, section 1.4, for the linear oscillator).
+/// An impulse changes it by its work, computed with the velocity in the middle of the event. Velocities after the kick
 /// would give (hw)^2 / 4 = 6 % more.
 TEST(DampingBooks, AreOfTheMiddleOfTheEvent) {
   Model<double, 2> model;
@@ -271,8 +271,8 @@ ChainBooks of_hanging_chain(double step_factor) {
   return {damping, energy - begin.energy() - damping};
 }
 
-/// Where links nearly balance, each alone would throw a vertex to and fro at every step: with the velocities in between
-/// damping would have three and a half times the work that it has.
+/// Links that nearly balance would each throw a vertex back and forth at every step. With the velocities in between,
+/// the work of damping would be three and a half times too large.
 TEST(DampingBooks, AreOfAllThatStrikeAtOneTime) {
   const ChainBooks coarse = of_hanging_chain(0.5), fine = of_hanging_chain(0.0625);
   std::printf("damping %.4g J, with an eighth of the steps %.4g J; integration %.2g J, %.2g J\n", coarse.damping,
@@ -283,7 +283,7 @@ TEST(DampingBooks, AreOfAllThatStrikeAtOneTime) {
   EXPECT_LE(std::abs(fine.integration), 0.005 * std::abs(fine.damping));
 }
 
-/// A mass that hangs at rest: gravity throws it down and the spring throws it back, at the same time.
+/// A mass hangs at rest: gravity pulls it down and the spring pulls it back at the same time.
 TEST(BooksOfOneTime, HaveNoWorkOfWhatBalances) {
   Model<double, 2> model;
   model.x = {{0, 0}, {0, -2}};

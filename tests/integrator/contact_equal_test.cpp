@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whatever keeps the certificates, and however many layers are always on, a run is the same bit for bit.
+// Tests that a run is the same, bit for bit, for every implementation of certificates and any number of layers that are
+// always active.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -67,7 +68,7 @@ TEST_P(SmallScenes3, CellsEqualTheLiteralAlgorithm) { compare_with_the_literal_a
 TEST_P(SmallScenes2, LayersActivatedInTimeEqualLayersThatAlwaysAre) { compare_with_layers_that_always_are(GetParam()); }
 TEST_P(SmallScenes3, LayersActivatedInTimeEqualLayersThatAlwaysAre) { compare_with_layers_that_always_are(GetParam()); }
 
-/// That more layers than needed are no different shows that fewer would be: the comparison can fail.
+/// Shows that the comparison can fail: with other layers than the first, the run differs.
 TEST(SmallScenes, WithoutItsDeepestLayersARunIsAnother) {
   Model<double, 2> model = test::chains_that_meet();
   Simulation<double, 2> whole(model);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a layer's kick does to energy and momenta, kick by kick (docs/contact.md, 4 and 5).
+// Tests the effect of single layer kicks on energy and momenta (docs/contact.md, 4 and 5).
 #include "integrator/contact_impulse.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 using test::near_features;
 using test::NearFeatures;
 
-constexpr std::uint64_t draws = 4000;  ///< of each kind
+constexpr std::uint64_t draws = 4000;  ///< per kind
 constexpr double rounding = 1e-13;
 
 /// Calls each(features, closest points, distance) for pairs of all kinds, in the plane and in space.
@@ -39,7 +39,7 @@ void for_all_pairs(const Each& each) {
       {FeaturePair::vertex_face, FeaturePair::edge_edge, FeaturePair::vertex_edge, FeaturePair::vertex_vertex}, each);
 }
 
-/// How often each of the things that a test is about has happened.
+/// How often each case of a test occurred.
 using Tally = std::array<int, 3>;
 
 template <int Dim>
@@ -53,7 +53,7 @@ double opening_of(const certificates::Closest<Dim>& c, const NearFeatures<Dim>& 
   return opening<Dim, double>(c, f.size(), [&f](std::size_t i) { return f.v[i]; });
 }
 
-/// As integrator/contact.h gives it. `most`: mu J_n.
+/// Friction as in integrator/contact.h. `most`: mu J_n.
 template <int Dim>
 Impulses<Dim> slip_rate_friction(const NearFeatures<Dim>& f, const certificates::Closest<Dim>& c, double most) {
   const Slip<Dim> s = slip<Dim>(Sliding<Dim, double>(c, f.xs()), f.vs());
@@ -62,7 +62,7 @@ Impulses<Dim> slip_rate_friction(const NearFeatures<Dim>& f, const certificates:
   return scaled<Dim>(s.against, std::min(most, s.speed / yield));
 }
 
-/// The closed form of docs/contact.md, 5, between points that are d apart.
+/// Friction by the closed form of docs/contact.md, 5, between points at distance d.
 template <int Dim>
 Impulses<Dim> plain_friction(const NearFeatures<Dim>& f, const certificates::Closest<Dim>& c, double most) {
   const Vec<double, Dim> n = c.r / c.distance();
@@ -79,7 +79,7 @@ Impulses<Dim> plain_friction(const NearFeatures<Dim>& f, const certificates::Clo
   return impulses;
 }
 
-/// h r(l) |g| from gentle to far beyond what stops everything.
+/// A value of h r(l) |g|, from gentle to far more than is needed to stop everything.
 double some_push(std::uint64_t seed) { return test::Stream(seed + 77).decades(1e-8, 1e4); }
 
 TEST(ContactImpulse, AnOpeningKickReturnsNoMoreWithRestitutionThanWithout) {
@@ -101,7 +101,7 @@ TEST(ContactImpulse, AnOpeningKickReturnsNoMoreWithRestitutionThanWithout) {
   EXPECT_GT(tally[1], 5000);
 }
 
-/// Pushing apart is what it is for: the impulse between the features is `push`, along the line between the points.
+/// The impulse between the features has the size `push` and acts along the line between the points.
 TEST(ContactImpulse, ANormalKickPushesApart) {
   for_all_pairs([&](const auto& f, const auto& c, double d) {
     constexpr int Dim = std::remove_cvref_t<decltype(f.x[0])>::RowsAtCompileTime;
@@ -140,7 +140,7 @@ TEST(ContactImpulse, FrictionLowersTheKineticEnergy) {
   EXPECT_GT(tally[2], 5000) << "corners do not slip";
 }
 
-/// Coulomb's law, and that sticking is the end of slip.
+/// Tests Coulomb's law, and that sticking stops the slip.
 TEST(ContactImpulse, FrictionIsAtMostItsCoefficientTimesTheNormalImpulseAndAtMostStopsTheSlip) {
   Tally tally{};
   for_all_pairs([&](const auto& f, const auto& c, double) {
@@ -184,8 +184,8 @@ TEST(ContactImpulse, KeepsMomentumAndAngularMomentum) {
   EXPECT_GT(slipped, 10000);
 }
 
-/// The plain form is not of this kind: what it does to the angular momentum is d n x J_t, and whoever adds up moments
-/// of impulses, as the books do, sees it.
+/// The plain form does not conserve angular momentum: it changes it by d n x J_t, which shows when moments of impulses
+/// are added up, as in the energy accounts.
 TEST(ContactImpulse, PlainFrictionTurnsWhatItActsOn) {
   int turned = 0;
   for_all_pairs([&](const auto& f, const auto& c, double) {
@@ -203,7 +203,7 @@ TEST(ContactImpulse, PlainFrictionTurnsWhatItActsOn) {
   EXPECT_GT(turned, 15000);
 }
 
-/// A pair that turns as one does not slip; the plain form takes it for slipping.
+/// A pair that rotates rigidly does not slip, but the plain form treats it as slipping.
 TEST(ContactImpulse, WhatTurnsAsOneDoesNotSlip) {
   int mistaken = 0;
   for_pairs_of<3>({FeaturePair::vertex_face, FeaturePair::edge_edge}, [&](auto f, const auto& c, double d) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// At one instant of a run: is any pair of features nearer than its next layer? Decided exactly, over all pairs whose
-// boxes are near.
+// Decides exactly whether any pair of features is nearer than its next layer at one instant of a run, over all pairs
+// whose boxes are near.
 //
 // Notation
 //   L        layers that are active for a pair; its next layer has thickness eta(L + 1)
-//   box      of a cell: its vertices, and half of the greatest eta(1) around them
+//   box      of a cell: contains its vertices and half of the greatest eta(1) around them
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace noli::integrator::test {
 
 struct InstantCounts {
   std::uint64_t instants = 0;
-  std::uint64_t pairs = 0;   ///< of features, in boxes that are near
-  std::uint64_t active = 0;  ///< of these, with a layer
-  std::uint64_t exact = 0;   ///< of all, decided by the kernel
-  std::uint64_t nearer = 0;  ///< than their next layer: none, if all is right
-  double least = 1e300;      ///< distance in units of the next layer's thickness
+  std::uint64_t pairs = 0;   ///< pairs of features in near boxes
+  std::uint64_t active = 0;  ///< those of them with a layer
+  std::uint64_t exact = 0;   ///< pairs decided by the kernel
+  std::uint64_t nearer = 0;  ///< pairs nearer than their next layer; must be 0
+  double least = 1e300;      ///< least distance in units of the next layer's thickness
 };
 
 template <int Dim>
@@ -38,7 +38,7 @@ class Instants {
   using Layers = std::map<certificates::PairKey, std::uint32_t>;
   using Stencil = certificates::Stencil;
 
-  /// The model must outlive this and have contact.
+  /// The model must outlive this object and have contact.
   explicit Instants(const Model<double, Dim>& model)
       : model_(model), features_(model.mesh, Dim), immovable_(model.x.size(), false) {
     for (const VertexId v : model.pinned) immovable_[v] = true;
@@ -48,7 +48,7 @@ class Instants {
     std::iota(order_.begin(), order_.end(), 0U);
   }
 
-  /// Looks at all pairs where things are.
+  /// Examines all pairs at the positions x.
   void look(const std::vector<Vec<double, Dim>>& x, const Layers& layers) {
     ++counts_.instants;
     for_each_near(x, [&](std::uint32_t a, std::uint32_t b) {
@@ -64,7 +64,7 @@ class Instants {
     bool immovable;
   };
 
-  /// Sweeps along the axis in which the boxes reach farthest.
+  /// Sweeps along the axis with the largest extent of the boxes.
   template <class Each>
   void for_each_near(const std::vector<Vec<double, Dim>>& x, const Each& each) {
     boxes_.clear();
@@ -89,7 +89,7 @@ class Instants {
     }
   }
 
-  /// A little larger than said, for rounding.
+  /// The box of a cell, slightly enlarged against rounding.
   Box box_of(const certificates::Features::Cell& cell, const std::vector<Vec<double, Dim>>& x) const {
     Box box{x[cell.vertices[0]], x[cell.vertices[0]], true};
     for (std::size_t k = 0; k < cell.size; ++k) {
@@ -117,7 +117,8 @@ class Instants {
     if (!farther(s, x, eta)) ++counts_.nearer;
   }
 
-  /// Than eta. By the direction between closest points, with a bound for its rounding; or by the kernel.
+  /// Whether the pair is farther apart than eta. Decided by the direction between closest points, with a bound for
+  /// rounding, or else by the kernel.
   bool farther(const Stencil& s, const std::vector<Vec<double, Dim>>& x, double eta) {
     std::array<Vec<double, Dim>, 4> p;
     double greatest = 0;
@@ -163,7 +164,7 @@ class Instants {
   std::vector<bool> immovable_;
   double room_ = 0;
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> order_;  ///< cells
+  std::vector<std::uint32_t> order_;  ///< cells in the order of the sweep
   InstantCounts counts_;
 };
 

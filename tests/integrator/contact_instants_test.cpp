@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// At a thousand instants of each scene's short form no pair of features is nearer than its next layer. The instants are
-// ends of windows that are a little shorter than a thousandth of the duration, by a factor that fits no step.
+// Tests at a thousand instants of each scene's short form that no pair of features is nearer than its next layer. The
+// instants are ends of windows slightly shorter than a thousandth of the duration, so that they do not match any step.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -37,7 +37,7 @@ TEST(Instants, AreLookedAtOfEachSceneWithContact) {
   EXPECT_EQ(names, std::set<std::string>(scenes_with_contact.begin(), scenes_with_contact.end()));
 }
 
-/// At the first `most` instants; `blind`: with no word of the layers that are active.
+/// Examines the first `most` instants; `blind`: ignores which layers are active.
 template <int Dim>
 InstantCounts look(Scene scene, int most, bool blind) {
   constexpr int instants = 1000;
@@ -92,7 +92,7 @@ TEST(Instants, NoPairIsNearerThanItsNextLayer) {
   EXPECT_GT(c.active, 0U);
 }
 
-/// Without its layers a pair would be too near: the look finds it.
+/// If active layers are ignored, some pairs are too near, which the test must find.
 TEST(Instants, PairsThatNeededALayerAreFound) {
   const InstantCounts with = look("plane_nails", 300), without = look("plane_nails", 300, true);
   EXPECT_EQ(with.pairs, without.pairs);

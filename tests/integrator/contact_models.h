@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small models in which things touch.
+// Builds small models with contact.
 #pragma once
 
 #include "integrator/contact_extremes.h"
@@ -11,7 +11,7 @@ namespace noli::integrator::test {
 
 namespace detail {
 
-/// Vertices of what is appended follow `first` others.
+/// Appends forces whose vertices are renumbered to start at `first`.
 template <class F>
 void append_forces(ForceList<F>& to, const ForceList<F>& from, VertexId first) {
   for (std::size_t k = 0; k < from.forces.size(); ++k) {
@@ -31,7 +31,7 @@ void append_cells(Cells& to, Cells from, VertexId first) {
 
 }  // namespace detail
 
-/// Puts b beside a: vertices of b follow those of a. Gravity, window and clocks are those of a.
+/// Both models in one: vertices of b follow those of a. Gravity, window and clocks are those of a.
 template <int Dim>
 Model<double, Dim> both(Model<double, Dim> a, const Model<double, Dim>& b) {
   const auto first = static_cast<VertexId>(a.x.size());
@@ -58,8 +58,8 @@ Model<double, Dim> both(Model<double, Dim> a, const Model<double, Dim>& b) {
   return a;
 }
 
-/// Masses of `mass` each on springs from one to the next, and from the last to the first if closed; in the plane their
-/// turns are stiff too. As it is it is at rest.
+/// Masses of `mass` each, with springs from one to the next, and from the last to the first if closed. In the plane,
+/// turns are stiff too. The initial shape is the rest shape.
 template <int Dim>
 Model<double, Dim> chain(std::vector<Vec<double, Dim>> x, bool closed, double stiffness, double mass,
                          double bending = 0.01) {
@@ -97,7 +97,7 @@ Model<double, Dim> points(std::vector<Vec<double, Dim>> x, double mass) {
   return model;
 }
 
-/// Each vertex shifted by `by` and faster by `v`.
+/// Shifts each vertex by `by` and adds `v` to its velocity.
 template <int Dim>
 Model<double, Dim> moved(Model<double, Dim> model, const Vec<double, Dim>& by, const Vec<double, Dim>& v) {
   for (auto& x : model.x) x += by;
@@ -105,7 +105,7 @@ Model<double, Dim> moved(Model<double, Dim> model, const Vec<double, Dim>& by, c
   return model;
 }
 
-/// All its vertices go where `path` says, moves from where they are; nothing moves them else.
+/// Scripts all vertices along `path`, relative to their initial positions, and removes all forces.
 template <int Dim>
 Model<double, Dim> scripted(Model<double, Dim> model, const std::vector<double>& times,
                             const std::vector<Vec<double, Dim>>& path) {
@@ -118,7 +118,7 @@ Model<double, Dim> scripted(Model<double, Dim> model, const std::vector<double>&
   return model;
 }
 
-/// Pins all its vertices.
+/// Pins all vertices and removes all forces.
 template <int Dim>
 Model<double, Dim> held(Model<double, Dim> model) {
   for (std::size_t i = 0; i < model.x.size(); ++i) model.pinned.push_back(static_cast<VertexId>(i));
@@ -126,7 +126,7 @@ Model<double, Dim> held(Model<double, Dim> model) {
   return model;
 }
 
-/// Where the vertices begin.
+/// The initial positions.
 template <int Dim>
 std::vector<Position> positions(const Model<double, Dim>& model) {
   std::vector<Position> result;
@@ -138,7 +138,7 @@ struct ContactOptions {
   double thickness = 0.01, stiffness = 100, c = 0.05, restitution = 1, friction = 0;
 };
 
-/// One material for all; h(1) from c (the least mass).
+/// Adds contact with one material; h(1) follows from c and the least mass.
 template <int Dim>
 Model<double, Dim> with_contact(Model<double, Dim> model, const ContactOptions& o) {
   double least = model.mass.front();
@@ -152,7 +152,7 @@ Model<double, Dim> with_contact(Model<double, Dim> model, const ContactOptions& 
   return model;
 }
 
-/// Two free sheets that fly into each other, one a little aslant.
+/// Two free sheets that fly into each other, one slightly tilted.
 inline Model<double, 3> colliding_sheets(int cells, double speed) {
   SheetOptions o;
   o.cells = cells;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who pushes whom when: an impulse goes through a row of bodies in order, and no layer acts before what was recorded
-// has come within its thickness (theory.md, T3), nor later than its next time. The recorded motion is judged exactly.
+// Tests causality (theory.md, T3): an impulse travels through a row of bodies in order. A layer does not act before the
+// recorded motion comes within its thickness, and acts no later than its next time. The recorded motion is judged
+// exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +16,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Bodies beside one another along the first axis, each with so many vertices; the first flies at the others, which are
-/// at rest. Nothing but contact acts.
+/// Bodies in a row along the first axis. The first flies at the others, which rest. Only contact acts.
 template <int Dim>
 struct Row {
   Model<double, Dim> model;
@@ -45,8 +45,8 @@ void add_body(Row<Dim>& row, const std::vector<Vec<double, Dim>>& x) {
   mesh.vertex_count = row.model.x.size();
 }
 
-/// Points; or points and plates in turn, which are edges in the plane, faces in space. Points meet plates in their
-/// middle, so all of a plate's vertices are pushed at one time.
+/// Points, or alternating points and plates, which are edges in the plane and faces in space. Points meet plates in the
+/// middle, so all vertices of a plate are pushed at the same time.
 template <int Dim>
 Row<Dim> row_of(bool plates) {
   Row<Dim> row;
@@ -70,7 +70,7 @@ Row<Dim> row_of(bool plates) {
   return row;
 }
 
-/// What was recorded of a vertex.
+/// The recorded motion of a vertex.
 template <int Dim>
 struct Path {
   std::vector<double> t;
@@ -90,7 +90,7 @@ std::vector<Path<Dim>> paths_of(const Recording<double, Dim>& recording, std::si
   return paths;
 }
 
-/// When the first impulse on a body was; its vertices have breakpoints at the window's ends and at impulses.
+/// The time of the first impulse on a body, whose vertices have breakpoints at the window's ends and at impulses.
 template <int Dim>
 double first_impulse(const std::vector<Path<Dim>>& paths, const std::vector<VertexId>& body) {
   double first = 1;
@@ -98,9 +98,9 @@ double first_impulse(const std::vector<Path<Dim>>& paths, const std::vector<Vert
   return first;
 }
 
-/// The largest double that is not later than the first time at which the mover, all of whose vertices have their
-/// breakpoints at the same times, has come within `eta` of the body at rest; exact but for that. Nothing if it does not
-/// do so up to `until`, one of its breakpoints.
+/// The first time at which the mover comes within `eta` of the resting body, rounded down to a double but otherwise
+/// exact. Nullopt if it does not up to `until`, which is one of its breakpoints. All vertices of the mover must have
+/// their breakpoints at the same times.
 template <FeaturePair Pair, int Dim>
 std::optional<double> time_within(const std::vector<Path<Dim>>& paths, const std::vector<VertexId>& mover,
                                   const std::vector<VertexId>& resting, double until) {
@@ -161,7 +161,7 @@ TEST(Causality, PointsAndEdgesPassAnImpulseOnInOrder) { expect_in_order(row_of<2
 TEST(Causality, PointsInSpacePassAnImpulseOnInOrder) { expect_in_order(row_of<3>(false)); }
 TEST(Causality, PointsAndFacesPassAnImpulseOnInOrder) { expect_in_order(row_of<3>(true)); }
 
-/// That the judge of the above can say no: the recorded mover is not within eta before it is.
+/// Shows that time_within() can answer no.
 TEST(Causality, ARecordedMotionThatStopsShortIsNotWithin) {
   const auto judge = [](double stop) {
     const std::vector<Path<2>> paths{{{0, 1}, {{0, 0}, {stop, 0}}}, {{0, 1}, {{1, 0}, {1, 0}}}};

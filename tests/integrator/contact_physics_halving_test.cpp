@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Friction on an incline against theory, and that the physics of contact is not that of the steps: half of every step
-// gives the same (docs/contact.md, 5).
+// Compares friction on an incline with theory, and tests that the physics of contact does not depend on the steps: with
+// all steps halved it stays the same (docs/contact.md, 5).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -40,8 +40,8 @@ BuiltScene<Dim> built(const Json& json, Form form) {
 
 // --- On an incline ---------------------------------------------------------------------------------------------------
 
-/// In the plane: a triangle of springs on a floor that is level, while gravity leans by atan 1/2. `excess`: the tangent
-/// of the angle over the coefficient of friction.
+/// In the plane: a triangle of springs on a level floor, with gravity tilted by atan 1/2. `excess`: the tangent of the
+/// angle over the coefficient of friction.
 constexpr double gravity = 9.81, edge = 0.2;
 const double slope = std::atan(0.5);
 
@@ -68,7 +68,7 @@ Model<double, 2> sled(double excess) {
   return test::with_contact(std::move(model), {thickness, stiffness, 0.003, 0.25, std::tan(slope) / excess});
 }
 
-/// The way and the speed of what lies on the incline, when it has come to rest in the other direction.
+/// The motion of a body along the incline, after it has settled across it.
 struct Slide {
   double speed = 0, acceleration = 0;  ///< on average over the time watched
 };
@@ -82,7 +82,7 @@ double place(const Simulation<double, Dim>& simulation, std::size_t first, std::
   return sum / static_cast<double>(last - first);
 }
 
-/// From the places at three times: `settling` windows, and half of `windows` each.
+/// Measures positions at three times: after `settling` windows, and then after each half of `windows`.
 Slide slide_of(const Model<double, 2>& model, std::uint64_t settling, std::uint64_t windows) {
   Simulation<double, 2> simulation(model);
   test::run(simulation, settling);
@@ -112,7 +112,7 @@ TEST(Incline, AboveTheAngleItSlides) {
   EXPECT_NEAR(half.acceleration, whole.acceleration, 0.02 * theory);
 }
 
-/// In space: the scene's two boxes, of one cell a side, one that sticks and one that slips.
+/// In space: the scene's two boxes with one cell per side; one sticks and one slips.
 struct Boxes {
   Slide sticks, slips;
   double edge = 0;
@@ -155,7 +155,7 @@ TEST(Incline, BoxesStickAndSlide) {
 
 // --- Restitution -----------------------------------------------------------------------------------------------------
 
-/// Of the scene: each ball's speed just after its first impact, by the height that it rises to, over that of its fall.
+/// Each ball's speed after its first impact over its speed before, both converted to the height of the outermost layer.
 std::vector<double> speed_ratios(Model<double, 2> model, std::size_t balls) {
   model.window_length = 0.01;  // the lowest rise takes 0.045 s
   Simulation<double, 2> simulation(model);
@@ -176,7 +176,8 @@ std::vector<double> speed_ratios(Model<double, 2> model, std::size_t balls) {
   return rise;
 }
 
-/// What gravity takes within the layers is a thousandth of the fall, so more than a hundredth of the least rise.
+/// Gravity's work within the layers is a thousandth of the fall. That is more than a hundredth of the lowest rise, so
+/// its tolerance is wider.
 TEST(Halving, LeavesRestitution) {
   constexpr std::array<double, 5> returned{1, 0.5, 0.25, 0.1, 0.01};
   const Model<double, 2> model = built<2>(scene("restitution.json"), Form::brief).model;
@@ -190,7 +191,7 @@ TEST(Halving, LeavesRestitution) {
 
 // --- Sphere and plate ------------------------------------------------------------------------------------------------
 
-/// What the sphere has when it has left the plate; neither changes any more then.
+/// The sphere after it has left the plate, when neither value changes any more.
 struct Rebound {
   double momentum = 0, energy = 0;
 };
@@ -224,7 +225,7 @@ Rebound rebound(const Model<double, 3>& model, std::size_t sphere) {
   return result;
 }
 
-/// Mean over starts that differ by a micrometre: the shells buckle, and differ by a percent or so then.
+/// Mean over starts that differ by a micrometre: the shells buckle, and results then differ by about one per cent.
 Rebound mean_rebound(const BuiltScene<3>& scene, bool half) {
   constexpr std::uint64_t starts = 4;
   Rebound mean;
@@ -238,8 +239,8 @@ Rebound mean_rebound(const BuiltScene<3>& scene, bool half) {
   return mean;
 }
 
-/// With twice the scene's steps (a step_factor of a half) the momentum changes by 2.1 % (over eight starts; standard
-/// error 0.4 %), which is the membranes' doing: half of contact's steps alone change 0.2 %.
+/// With twice the scene's steps (a step_factor of a half), the momentum changes by 2.1 % (over eight starts; standard
+/// error 0.4 %). This comes from the membranes: halving only contact's steps changes 0.2 %.
 TEST(Halving, SlowLeavesSphereAndPlate) {
   const BuiltScene<3> built_scene = built<3>(scene("sphere_plate.json"), Form::brief);
   const Rebound whole = mean_rebound(built_scene, false), half = mean_rebound(built_scene, true);

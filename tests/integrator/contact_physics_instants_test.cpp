@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time goes on: no instant has more events of contact than a bound (theory.md, T5).
+// Tests that time advances: the number of contact events at one instant is bounded (theory.md, T5).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 /// Repairs, plans and tubes.
 std::uint64_t work_of(const CertificateCounts& c) { return c.repairs + c.plans + c.tubes; }
 
-/// Events by the time at which they are.
+/// Counts events by time and keeps the most at one time.
 class InstantSet {
  public:
   void add(double t, std::uint64_t events) {
@@ -32,7 +32,7 @@ class InstantSet {
   std::uint64_t sum_ = 0, most_ = 0;
 };
 
-/// Triangles without inner forces that fly at one another from all sides.
+/// Triangles without internal forces that fly at each other from all sides.
 Model<double, 3> swarm(int count) {
   Model<double, 3> model;
   std::uint64_t draw = 0;
@@ -91,9 +91,9 @@ TEST(Progress, NoInstantHasMoreThanABoundedNumberOfEvents) {
       static_cast<int>(books.of(ForceKind::contact).events), static_cast<int>(contact.counts().activations),
       static_cast<int>(failures.most()), static_cast<int>(plans.most()), static_cast<int>(fired.most()));
   EXPECT_GT(books.of(ForceKind::contact).events, 10000U);
-  // When a slice begins, each vertex is planned and each near pair gets its slab.
+  // At the start of a slice, each vertex is planned and each near pair gets its slab.
   EXPECT_LE(plans.most(), 20 * particles.size());
-  // A vertex has one event, which is over when it has happened; and there is the next slice.
+  // Each vertex has one event, which happens once, and the next slice is one more.
   EXPECT_LE(failures.most(), particles.size() + 1);
   EXPECT_LE(fired.most(), contact.counts().deepest) << "each layer once";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges that turn through parallel, where their closest points jump (docs/contact.md, 2; certificates/closest.h).
+// Tests edges that turn through parallel, where their closest points jump (docs/contact.md, 2; certificates/closest.h).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::array<Vec<double, 3>, 4>;
 
-/// An edge of length 1 above one of length 2, tilted by an angle in their common plane, its middle at a height.
+/// An edge of length 1 above one of length 2, tilted by `angle` in their common plane, with its middle at `height`.
 Points tilted(double angle, double height) {
   const Vec<double, 3> half(0.5 * std::cos(angle), 0, 0.5 * std::sin(angle)), middle(0, 0, height);
   return {middle - half, middle + half, Vec<double, 3>(-1, 0, 0), Vec<double, 3>(1, 0, 0)};
@@ -26,7 +26,7 @@ certificates::Closest<3> closest(const Points& x) {
   return certificates::closest<3>(FeaturePair::edge_edge, std::span<const Vec<double, 3>>(x));
 }
 
-/// What the kick does at the turn: it goes from one end over the middle to the other, as large as ever.
+/// At the turn, the kick moves from one end over the middle to the other, and its size stays the same.
 TEST(ParallelEdges, TheKickJumpsFromEndToEndAndIsNoLarger) {
   constexpr double height = 0.06, push = 2;
   for (const double angle : {-0.1, -1e-3, -2e-6, -1e-7, 0.0, 1e-7, 2e-6, 1e-3, 0.1}) {
@@ -44,8 +44,8 @@ TEST(ParallelEdges, TheKickJumpsFromEndToEndAndIsNoLarger) {
 
 constexpr double eta = 0.1, stiffness = 1000, speed = 3;
 
-/// A bar of two vertices without a spring falls, turning, onto one that is pinned; they are parallel about when the
-/// layers stop it. `yaw`: the angle between them seen from above.
+/// A rotating bar of two vertices without a spring falls onto a pinned one. The bars become parallel at about the time
+/// when the layers stop it. `yaw`: the angle between them seen from above.
 Model<double, 3> falling_bar(double yaw, double c, std::uint64_t draw) {
   Model<double, 3> model;
   const double height = 0.2 + 0.01 * (1 + test::noise(draw)), turning = 1 + 0.5 * test::noise(draw + 4000);
@@ -64,8 +64,8 @@ Model<double, 3> falling_bar(double yaw, double c, std::uint64_t draw) {
   return test::with_contact(std::move(model), {eta, stiffness, c, 1, 0});
 }
 
-/// Relative change of the energy by the impact, and how often the bar was level while layers acted, as seen at windows'
-/// ends.
+/// The relative change of energy by the impact, and how often the bar turned through level while layers acted, as seen
+/// at ends of windows.
 struct Impact {
   double error = 0;
   int turns = 0;
@@ -114,8 +114,8 @@ Spread errors(double yaw, double c) {
   return spread;
 }
 
-/// As certificates/closest.h says: without bias, of first order in the step where edges turn through parallel one above
-/// the other, of second order where they do not.
+/// As documented in certificates/closest.h, the error has no bias. It is of first order in the step if edges turn
+/// through parallel above each other, and of second order if not.
 TEST(ParallelEdges, EnergyErrorIsAsDocumented) {
   for (const double c : {0.02, 0.05, 0.1}) {
     const Spread parallel = errors(0, c), crossing = errors(0.7, c);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What certificates cost for each layer that is activated (theory.md, T5).
+// Bounds the cost of certificates per activated layer (theory.md, T5).
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Repairs, plans and tubes together. They are 83 to 215 in these scenes, whatever the number of vertices.
+/// Repairs, plans and tubes per activation. In these scenes there are 83 to 215, whatever the number of vertices.
 constexpr double most_per_activation = 600;
 
 struct Contacts {

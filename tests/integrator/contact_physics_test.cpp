@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What contact does over many impacts, against theory and the tables of docs/contact.md, 1 and 4. Its section 3 is in
-// contact_test.cpp.
+// Compares contact over many impacts with theory and with the tables of docs/contact.md, 1 and 4. contact_test.cpp
+// covers its section 3.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using test::with_contact;
 
 constexpr double thickness = 0.1, stiffness = 1000;
 
-/// A ball of mass 1 above a floor that does not move, so 1 / m_eff = 1 / m and h(1) = c / sqrt(r(1)).
+/// A ball of mass 1 above an immovable floor, so 1 / m_eff = 1 / m and h(1) = c / sqrt(r(1)).
 Model<double, 2> ball(double height, double speed, double c, double restitution = 1) {
   Model<double, 2> model =
       with_contact(ball_and_floor(height, speed), {thickness, stiffness, c, restitution, /*friction=*/0});
@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
 
 // --- Restitution -----------------------------------------------------------------------------------------------------
 
-/// Speed after an impact over speed before, when the ball has left the layers.
+/// Speed after an impact over speed before, once the ball has left the layers.
 double speed_ratio(double height, double c, double restitution) {
   constexpr double speed = 3;
   Simulation<double, 2> simulation(ball(height, speed, c, restitution));
@@ -80,8 +80,8 @@ TEST(ContactPhysics, AllOfTheEnergyComesBack) { EXPECT_NEAR(mean_speed_ratio(0.0
 
 // --- Energy ----------------------------------------------------------------------------------------------------------
 
-/// docs/contact.md, 3, and the books: contact's work is the change of the kinetic energy, window by window. The impacts
-/// are aslant.
+/// Tests docs/contact.md, 3, and the energy accounts: contact's work is the change of the kinetic energy, window by
+/// window. The impacts are oblique.
 TEST(ContactPhysics, AThousandImpactsHaveNoTrendAndTheirBooksClose) {
   std::vector<double> changes;
   double worst = 0;
@@ -106,13 +106,13 @@ TEST(ContactPhysics, AThousandImpactsHaveNoTrendAndTheirBooksClose) {
   EXPECT_LT(worst, 1e-10);
 }
 
-/// The least and the greatest energy, over that of the start.
+/// The least and the greatest energy, relative to the initial energy.
 struct Range {
   double low = 1, high = 1;
 };
 
-/// docs/contact.md, 1: 1D ball, g = 9.8, some 227 bounces. Energy is taken outside of the layers; gravity's step is the
-/// longest of the window's halves that is not longer than h(1).
+/// docs/contact.md, 1: 1D ball, g = 9.8, about 227 bounces. Energy is measured outside of the layers. Gravity's step is
+/// the window halved until it is at most h(1).
 Range energy_range(double height, double c) {
   constexpr double g = 9.8, window = 0.05, duration = 200, many_times = 100;
   Model<double, 2> model = ball(height, 0, c);
@@ -150,7 +150,8 @@ struct TableRow {
   double c, low, high;
 };
 
-/// The table is of one run a line, whose extremes are those of a random walk: widths agree within a factor of three.
+/// Each line of the table is a single run, whose extremes are those of a random walk, so widths only agree within a
+/// factor of three.
 TEST(ContactPhysics, SlowEnergyOfABallThatBouncesAsInTheTable) {
   double width_before = 0;
   for (const TableRow row : {TableRow{0.02, 0.9998, 1.0014}, TableRow{0.05, 0.995, 1.011}, TableRow{0.1, 0.92, 1.001},

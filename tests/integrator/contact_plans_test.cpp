@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A vertex that is struck again and again is still planned seldom.
+// Tests that a vertex is planned rarely even if it is struck again and again.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -30,7 +30,7 @@ Json beads_and_sheets() {
     "contact": {"thickness": 0.002, "stiffness": 1000, "restitution": 0.3}})");
 }
 
-/// Three sheets that two plates press together: after 36 ms the plates are 6.7 mm apart.
+/// Three sheets pressed together by two plates: after 36 ms the plates are 6.7 mm apart.
 Json pinched_sheets() {
   return Json::parse(R"({
     "noli_scene": 1, "title": "pinched", "duration": 1, "window": 0.002, "record": "frames",

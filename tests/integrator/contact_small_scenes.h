@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ten small scenes that between them have all that contact in a run can have: both dimensions, faces, loose edges and
-// loose points, tips, scripted, pinned and free things, several materials, groups that do not meet, gravity,
-// restitution, friction, clocks in groups and clocks of their own.
+// Defines ten small scenes that together cover all features of contact: both dimensions, faces, loose edges and points,
+// tips, scripted, pinned and free bodies, several materials, excluded groups, gravity, restitution, friction, grouped
+// and own clocks.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ template <int Dim>
 struct SmallScene {
   const char* name;
   Model<double, Dim> (*make)();
-  std::uint64_t windows, with_all_layers;  ///< how many to run, and how many with all layers always on
+  std::uint64_t windows, with_all_layers;  ///< windows to run, and windows with all layers always active
 };
 
 template <int Dim>
@@ -26,8 +26,8 @@ void PrintTo(const SmallScene<Dim>& scene, std::ostream* out) {
 using V2 = Vec<double, 2>;
 using V3 = Vec<double, 3>;
 
-/// Vertices in groups one after the other, of these sizes; the first two groups do not meet each other, and pairs
-/// within a group are of another material than those of two.
+/// Splits vertices into successive groups of these sizes. The first two groups exclude each other; pairs within a group
+/// have another material than pairs between groups.
 template <int Dim>
 Model<double, Dim> with_groups(Model<double, Dim> model, const ContactOptions& o,
                                const std::vector<std::size_t>& sizes) {
@@ -181,7 +181,7 @@ inline Model<double, 3> three_sheets_two_materials() {
   return with_groups(std::move(m), {0.02, 500, 0.05, 0.7, 0.1}, sizes);
 }
 
-/// A narrow sheet that flies with its tip ahead, under gravity.
+/// A narrow sheet that flies tip first, under gravity.
 inline Model<double, 3> tip_on_a_sheet() {
   SheetOptions o;
   o.cells = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random pairs of features that are near each other, and what impulses do to them.
+// Generates random pairs of near features and computes the effect of impulses on them.
 //
 // Notation: that of integrator/contact_impulse.h.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace noli::integrator::test {
 
-/// A stream of numbers that depends on the seed alone.
+/// A stream of numbers that depends only on the seed.
 class Stream {
  public:
   explicit Stream(std::uint64_t seed) : state_(seed * 1000003) {}
@@ -38,7 +38,7 @@ struct NearFeatures {
   FeaturePair kind;
   std::array<Vec<double, Dim>, 4> x, v;
   std::array<double, 4> inverse_mass{};
-  double eta = 0;  ///< they are nearer than this
+  double eta = 0;  ///< the features are nearer than this
 
   std::size_t size() const { return point_count(kind); }
   std::span<const Vec<double, Dim>> xs() const { return {x.data(), size()}; }
@@ -46,14 +46,14 @@ struct NearFeatures {
   std::span<const double> inverse_masses() const { return {inverse_mass.data(), size()}; }
   certificates::Closest<Dim> closest() const { return certificates::closest<Dim>(kind, xs()); }
 
-  /// What impulses do to the energy of the pair and of what holds or drives those that nothing moves: sum of
-  /// J . (v + v') / 2. If these are at rest it is the change of kinetic energy.
+  /// The work of impulses on the pair, including its pinned and driven vertices: the sum of J . (v + v') / 2. If those
+  /// rest, it is the change of kinetic energy.
   double work(const Impulses<Dim>& impulses) const {
     double sum = 0;
     for (std::size_t i = 0; i < size(); ++i) sum += impulses[i].dot(v[i] + (0.5 * inverse_mass[i]) * impulses[i]);
     return sum;
   }
-  /// A bound on the terms of that, to measure rounding against.
+  /// A bound on the terms of work(), as a scale for rounding.
   double work_scale(const Impulses<Dim>& impulses) const {
     double sum = 0;
     for (std::size_t i = 0; i < size(); ++i) {
@@ -88,9 +88,9 @@ struct NearFeatures {
   }
 };
 
-/// Edges as long as 1 or so, all regions of closest points, at distances of eta to eta / 10^4; a few with coincident
-/// vertices, slivers of faces, edges that are parallel or nearly so; vertices that no
-/// impulse moves, at rest or driven, but not all.
+/// Random features with edges of length about 1, all regions of closest points, and distances from eta / 10^4 to eta.
+/// Some have coincident vertices, sliver faces, or edges that are parallel or nearly so. Some vertices, but not all,
+/// are immovable, at rest or driven.
 template <int Dim>
 NearFeatures<Dim> near_features(FeaturePair kind, std::uint64_t seed) {
   Stream random(seed);
@@ -115,7 +115,7 @@ NearFeatures<Dim> near_features(FeaturePair kind, std::uint64_t seed) {
     if (sort > 0.1 && sort < 0.2) f.x[3] = 0.5 * (f.x[1] + f.x[2]) + random.vector<Dim>(away);
   }
   f.eta = random.decades(1e-4, 0.3);
-  const auto c = f.closest();  // it stays so while A goes along r
+  const auto c = f.closest();  // unchanged while A moves along r
   if (c.distance() > 0) {
     const double d = f.eta * random.decades(1e-4, 1);
     for (std::size_t i = 0; i < first_size(kind); ++i) f.x[i] -= (1 - d / c.distance()) * c.r;

@@ -71,7 +71,7 @@ TEST_P(Colliding, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
   expect_same(lazy.snapshot(), always.snapshot());
 }
 
-/// Of a run over so many windows.
+/// The deepest layer that acts within `windows` windows.
 std::uint32_t deepest_that_acts(Simulation<double, 3>& simulation, int windows) {
   std::uint32_t deepest = 0;
   for (int w = 0; w < windows; ++w) {
@@ -92,7 +92,7 @@ std::optional<ContactLimit> limit_of(const Model<double, 3>& model, int windows)
   return std::nullopt;
 }
 
-/// How many are taken in advance depends on when certificates look, which is not the same in a run that was resumed.
+/// The number of layers activated in advance depends on when certificates look, which differs in a resumed run.
 TEST_P(Colliding, WhatEndsARunIsALayerThatActsNotOneThatIsTakenInAdvance) {
   constexpr int windows = 8;
   Model<double, 3> model = this->model(3);
@@ -172,11 +172,11 @@ TEST(Contact, EnergyStaysWithoutRestitutionAndFriction) {
   EXPECT_GE(simulation.certificates().deepest, 2U);
 }
 
-/// Relative change of the kinetic energy by one impact at 3 m/s with this start height.
+/// Relative change of the kinetic energy by one impact at 3 m/s from this initial height.
 double impact(double c, double height, double restitution = 1) {
   ContactOptions o{0.1, 1000, c, restitution, 0};
   Model<double, 2> model = with_contact(ball_and_floor(height, 3), o);
-  model.contact->materials[0].step = c / std::sqrt(1000.0);  // against something that does not move, 1 / m_eff = 1 / m
+  model.contact->materials[0].step = c / std::sqrt(1000.0);  // the floor is immovable: 1 / m_eff = 1 / m
   Simulation<double, 2> simulation(model);
   run(simulation, 30);
   const auto s = simulation.snapshot();
@@ -209,7 +209,7 @@ TEST_P(Impacts, ChangeEnergyByNothingOnAverage) {
   EXPECT_LT(std::abs(mean), 3 * deviation / std::sqrt(double{count}));
 }
 
-/// docs/contact.md, 4: what comes back is e of the energy.
+/// docs/contact.md, 4: a share e of the energy comes back.
 TEST(Contact, RestitutionIsTheShareOfTheEnergyThatComesBack) {
   for (const double e : {0.5, 0.25, 0.1}) {
     double sum = 0;

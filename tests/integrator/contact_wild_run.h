@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs a small scene and has each window verified before it counts, as `noli simulate` does.
+// Runs a small scene and verifies each window before it counts, as `noli simulate` does.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 namespace noli::integrator::test {
 
 struct Ending {
-  int windows = 0;             ///< verified; nothing touches in them
-  std::uint64_t impulses = 0;  ///< of contact, in those and in the one that was broken off
-  std::uint32_t deepest = 0;   ///< layer
-  // Why the window after those is not committed, if it is not:
+  int windows = 0;             ///< verified windows; nothing touches in them
+  std::uint64_t impulses = 0;  ///< contact impulses in them and in the aborted one
+  std::uint32_t deepest = 0;   ///< deepest layer
+  // Why the next window was not committed:
   bool touched = false;  ///< exact arithmetic found a contact
   bool not_finite = false;
   bool long_winded = false;           ///< more turns than allowed
@@ -24,8 +24,8 @@ struct Ending {
   bool stopped() const { return touched || not_finite || long_winded || limit.has_value(); }
 };
 
-/// Up to so many windows, or the first that is not to be committed. `most_turns`: of the loop over events (layers that
-/// fire for nothing count too); it is asked for every 2^14 of them.
+/// Runs up to `windows` windows, or until one may not be committed. `most_turns` limits the turns of the event loop,
+/// including layers that fire for no pair; it is checked every 2^14 turns.
 template <int Dim>
 Ending run_verified(const Model<double, Dim>& model, int windows, std::uint64_t most_turns) {
   WindowOptions options;

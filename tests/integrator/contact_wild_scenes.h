@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random small scenes over wild parameters: thickness over three decades, stiffness over six, c to 0.5, speeds to
-// 1,000 m/s; sheets, tips, stacks, chains, loops and loose points that fly into each other.
+// Generates random small scenes with extreme parameters: thickness over three decades, stiffness over six, c up to 0.5,
+// speeds up to 1,000 m/s. Sheets, tips, stacks, chains, loops and loose points fly into each other.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace noli::integrator::test {
 
-/// A stream of numbers that depends on the seed alone. (At most one of them in a list of arguments, unless in braces:
-/// compilers differ in the order.)
+/// A stream of numbers that depends only on the seed. Draw at most one per list of arguments, except in braces:
+/// compilers evaluate arguments in different orders.
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : state_(seed * 1000003) {}
@@ -36,7 +36,7 @@ struct Wild {
 using V2 = Vec<double, 2>;
 using V3 = Vec<double, 3>;
 
-/// Forces' steps, the window, and one material, as wild as the issue asks for.
+/// Sets the forces' steps, the window, and one extreme material.
 template <int Dim>
 Wild<Dim> wild(Model<double, Dim> model, double speed, Numbers& random) {
   ContactOptions contact;
@@ -52,7 +52,7 @@ Wild<Dim> wild(Model<double, Dim> model, double speed, Numbers& random) {
   return {std::move(model), contact.c};
 }
 
-/// Sheets that fly into one that is nearly at rest, some of them narrow: sharp tips.
+/// Sheets that fly into one that is nearly at rest. Some are narrow and have sharp tips.
 inline Model<double, 3> flying_sheets(Numbers& random, double speed) {
   SheetOptions o;
   o.cells = random.whole(2, 4);
@@ -77,7 +77,7 @@ inline Model<double, 3> flying_sheets(Numbers& random, double speed) {
   return model;
 }
 
-/// A sheet of one cell stood on its corner: `direction` 1: the tip is below, at (0, 0, 0); -1: above.
+/// A sheet of one cell, standing on its corner. `direction` 1: the tip is below, at (0, 0, 0); -1: above.
 inline Model<double, 3> tip(Numbers& random, double direction) {
   SheetOptions o;
   o.cells = 1;
@@ -91,7 +91,7 @@ inline Model<double, 3> tip(Numbers& random, double direction) {
   return model;
 }
 
-/// Tips that fly at tips, or at a sheet that is held or free.
+/// Tips that fly at tips, or at a pinned or free sheet.
 inline Model<double, 3> flying_tips(Numbers& random, double speed) {
   SheetOptions o;
   o.cells = random.whole(1, 3);
@@ -111,7 +111,7 @@ inline Model<double, 3> flying_tips(Numbers& random, double speed) {
   return below;
 }
 
-/// Sheets close above one another, the lowest held; the highest is thrown down.
+/// Sheets close above each other. The lowest is pinned, the highest is thrown down.
 inline Model<double, 3> thrown_stack(Numbers& random, double speed) {
   SheetOptions o;
   o.cells = random.whole(1, 3);
@@ -128,7 +128,7 @@ inline Model<double, 3> thrown_stack(Numbers& random, double speed) {
   return model;
 }
 
-/// A chain and some points, high above all else and faster.
+/// Adds a chain and some points, faster and high above everything else.
 inline Model<double, 3> with_loose_things(Model<double, 3> model, Numbers& random, double speed) {
   std::vector<V3> line, loose;
   const double height = random.between(2.6, 2.8);
@@ -154,7 +154,7 @@ inline Wild<3> wild_scene_3d(std::uint64_t seed) {
 
 // --- In the plane ----------------------------------------------------------------------------------------------------
 
-/// Along the first axis, about `height`.
+/// A chain along the first axis, at about `height`.
 inline Model<double, 2> rough_chain(Numbers& random, double height) {
   const int segments = random.whole(2, 8);
   std::vector<V2> x;
@@ -164,7 +164,7 @@ inline Model<double, 2> rough_chain(Numbers& random, double height) {
   return chain<2>(std::move(x), false, random.decades(50, 5000), 0.05);
 }
 
-/// A tip below, at `at`; above for negative heights.
+/// A spike whose tip is at `at`, pointing down, or up for negative heights.
 inline Model<double, 2> rough_spike(Numbers& random, const V2& at, double height) {
   const double width = random.decades(0.002, 0.1);
   return chain<2>({at + V2(-width, height), at, at + V2(width, height)}, false, random.decades(50, 5000), 0.05);
@@ -187,7 +187,7 @@ inline Model<double, 2> rough_points(Numbers& random, double height) {
   return points<2>(std::move(x), random.decades(0.005, 0.5));
 }
 
-/// Heights of what comes one above the other are 0.3 apart; what is higher is faster.
+/// Bodies above each other at heights 0.3 apart; higher ones are faster.
 inline Wild<2> wild_scene_2d(std::uint64_t seed) {
   Numbers random(seed);
   const double speed = random.decades(0.1, 1000);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random small scenes over wild parameters: whatever happens, nothing is recorded that touches, unless the steps of
-// contact are at fault; certificates never are.
+// Tests random small scenes with extreme parameters. A window may only touch because the steps of contact are too long,
+// never because certificates missed a layer.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ Wild<Dim> wild_scene(std::uint64_t seed) {
   }
 }
 
-/// What is said of a run that stopped for want of layers makes sense.
+/// The report of a run that needed too many layers is consistent.
 template <int Dim>
 void expect_sane(const ContactLimit& limit, const Model<double, Dim>& model, int windows) {
   for (std::size_t k = 0; k < limit.pair.size(); ++k) EXPECT_LT(limit.pair.vertices[k], model.x.size());
@@ -40,7 +40,7 @@ void expect_sane(const ContactLimit& limit, const Model<double, Dim>& model, int
   EXPECT_LE(limit.time, (windows + 1) * model.window_length);
 }
 
-/// A window that touches is not for want of a layer: with more of them from the start it is the same.
+/// A window that touches does not lack a layer: with more layers from the start, it touches too.
 template <int Dim>
 void expect_no_fault_of_certificates(Model<double, Dim> model, const Ending& ending) {
   model.contact->least_layers = 40;
@@ -53,7 +53,7 @@ template <int Dim>
 void try_scene(std::uint64_t seed, bool inclusion_exclusion, Tally& tally) {
   SCOPED_TRACE(testing::Message() << Dim << "D, seed " << seed);
   Wild<Dim> wild = wild_scene<Dim>(seed);
-  wild.model.contact->most_layers = 10'000;  // ten times as many as by default: what is wild goes deep
+  wild.model.contact->most_layers = 10'000;  // ten times the default, as wild scenes reach deep layers
   wild.model.contact->inclusion_exclusion = inclusion_exclusion;
   const Ending ending = test::run_verified(wild.model, test::wild_windows, test::wild_turns);
   const bool done = !ending.stopped();

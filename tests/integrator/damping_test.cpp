@@ -22,7 +22,7 @@ using test::Random;
 
 constexpr int states = 200;
 
-/// Of the vertices of finite mass, without rounding to speak of.
+/// The kinetic energy of the vertices of finite mass, with negligible rounding.
 template <int Dim, std::size_t N>
 Big kinetic_energy(const VertexVectors<double, Dim, N>& v, const std::array<double, N>& inverse_mass) {
   Big sum(0);
@@ -33,7 +33,7 @@ Big kinetic_energy(const VertexVectors<double, Dim, N>& v, const std::array<doub
   return sum;
 }
 
-/// Damps, and tells the work on the vertices of finite mass: impulses with means of the velocities before and after.
+/// Damps, and returns the work on the vertices of finite mass: impulses times the means of velocities before and after.
 template <class F, class S, int Dim, std::size_t N>
 S work_of_damping(const F& force, const VertexVectors<S, Dim, N>& x, VertexVectors<S, Dim, N>& v,
                   const std::array<S, N>& inverse_mass, const S& h) {
@@ -67,8 +67,7 @@ class Damping : public testing::Test {
   X x, v;
   std::array<double, F::size> inverse_mass;
 
-  /// Another force in another state, with the masses of all vertices finite; its damping is anything from weak to
-  /// extremely strong.
+  /// Draws another force in another state, with finite masses, and with damping from weak to extremely strong.
   void draw() {
     force = test::random_force<F>(random);
     force.damping = std::ldexp(1.0, random.around_zero(30));
@@ -164,7 +163,7 @@ TYPED_TEST(Damping, NeverTurnsARateRound) {
   }
 }
 
-/// Measures take their turn: the last one's rate is what its own impulse leaves of it, the others' are disturbed by it.
+/// Measures are damped in turn: the last one keeps the rate that its own impulse leaves, which disturbs the others.
 TEST(MembraneDampingTest, TheLastMeasureIsDampedLast) {
   Random random(3);
   auto membrane = test::random_force<Membrane<double>>(random);
@@ -178,7 +177,7 @@ TEST(MembraneDampingTest, TheLastMeasureIsDampedLast) {
   EXPECT_GE(std::abs(after[0]), 1e-3 * std::abs(before[0]));
 }
 
-/// A scripted vertex keeps its velocity and drags the free one: work above zero, which is the free one's gain.
+/// A scripted vertex keeps its velocity and drags the free one, whose gain in energy is the positive work.
 TEST(ScriptedDampingTest, WorkOnTheFreeOnes) {
   const EdgeSpring<double, 2> spring{{0, 1}, 3, 1, 100};
   VertexVectors<double, 2, 2> v = {Vec<double, 2>(-5, 1), {0, 0}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// When gravity acts, and what its steps do to energies.
+// Tests when gravity acts, and the effect of its steps on energy.
 #include "integrator/falling.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using test::run;
 
 constexpr double g = 9.81;
 
-/// A sheet that shakes, with steps that are estimated.
+/// A shaking sheet with estimated steps.
 Model<double, 3> shaking_sheet(Clocks clocks) {
   Model<double, 3> model = test::sheet({});
   model.pinned = {0, 6};
@@ -48,12 +48,12 @@ TEST(Falling, RidesOnTheForcesOfAVertex) {
     const std::size_t without = breakpoints(model);
     model.gravity = Gravity<double, 3>{{0, 0, -g}, model.window_length};
     EXPECT_EQ(breakpoints(model), without);
-    model.gravity->step = 1e-4;  // shorter than those of the forces
+    model.gravity->step = 1e-4;  // shorter than the forces' steps
     EXPECT_GT(breakpoints(model), 3 * without);
   }
 }
 
-/// A pair at rest: its spring does nothing, but carries gravity. Windows end where no step does.
+/// A pair whose spring is at rest but determines when gravity acts. Windows do not end at steps.
 Model<double, 2> falling_pair(Clocks clocks, double step) {
   Model<double, 2> model = test::spring_pair<2>(1, 3, 100, 0, 0.0137);
   model.v.assign(2, Vec<double, 2>(1, 2));
@@ -80,7 +80,7 @@ TEST(Falling, IsOnItsParabolaAtTheEndsOfWindowsWhateverTheSteps) {
   }
 }
 
-/// A window that ends early cuts a step p after s: each time, what falls is left g s (p - s) / 2 too low.
+/// A window that ends early cuts a step p after s; each time, falling vertices end up g s (p - s) / 2 too low.
 TEST(Falling, AnEarlyEndCostsLessThanItsStepSquared) {
   Model<double, 2> model = falling_pair(Clocks::own, 0.05);
   model.most_breakpoints = 7;
@@ -118,7 +118,7 @@ TEST(Falling, GoesOnFromASnapshotBitForBit) {
 
 constexpr double ball_thickness = 0.01, ball_stiffness = 1e7, layer_step = 0x1p-20;
 
-/// A ball of mass 1 above a floor. Layers are stiff and their steps so short that what is left of errors is gravity's.
+/// A ball of mass 1 above a floor. Layers are stiff and their steps so short that the remaining error is gravity's.
 Model<double, 2> stiff_ball(double height, double speed, double step) {
   Model<double, 2> model = test::with_contact(test::ball_and_floor(height, speed),
                                               {ball_thickness, ball_stiffness, 0.1, /*restitution=*/1, 0});
@@ -130,8 +130,8 @@ Model<double, 2> stiff_ball(double height, double speed, double step) {
 
 bool is_multiple(double t, double step) { return std::floor(t / step) * step == t; }
 
-/// By itself gravity acts on the ball once in a while. An impulse has it act once more, at the next time of a first
-/// layer, however deep the layer was.
+/// Gravity alone acts on the ball once per step. An impulse makes it act once more, at the next time of a first layer,
+/// however deep the layer was.
 TEST(Falling, ActsFinelyBehindImpulses) {
   const double step = 0x1p-7;
   Simulation<double, 2> simulation(stiff_ball(0.02, 1, step));
@@ -159,12 +159,12 @@ TEST(Falling, ActsFinelyBehindImpulses) {
   EXPECT_TRUE(is_multiple(times.back(), step)) << "it has left";
 }
 
-/// What an impact changes K + V by, over m [J/kg].
+/// The change of K + V by an impact, over m [J/kg].
 struct Change {
   double mean = 0, error = 0;
 };
 
-/// Of balls that fall from different heights with 3 m/s.
+/// The mean change for balls that fall from different heights, starting with 3 m/s.
 Change change_by_an_impact(const Model<double, 2>& ball, int impacts) {
   double sum = 0, squares = 0;
   for (int i = 0; i < impacts; ++i) {
@@ -184,9 +184,9 @@ Change change_by_an_impact(const Model<double, 2>& ball, int impacts) {
   return {mean, std::sqrt((squares / impacts - mean * mean) / impacts)};
 }
 
-/// What is derived in integrator/falling.h.
+/// Tests the formula derived in integrator/falling.h.
 TEST(Falling, AnImpactCostsAboutATwelfthOfGravitysStepSquared) {
-  const double step = 0x1p-6;  // in which it falls a small part of how much the heights differ
+  const double step = 0x1p-6;  // the fall within a step is small against the spread of heights
   const Change change = change_by_an_impact(stiff_ball(0, 3, step), 2000);
   const double theory = -g * g * step * step / 12;
   std::printf("energy of an impact: %.3g J/kg (expected %.3g) +- %.2g\n", change.mean, theory, change.error);
@@ -194,8 +194,8 @@ TEST(Falling, AnImpactCostsAboutATwelfthOfGravitysStepSquared) {
   EXPECT_NEAR(change.mean, theory, 3 * change.error);
 }
 
-/// With layers that are soft, and whose steps are not short beside gravity's, as by default: an error of first order
-/// in h(1) would be m v g h(1) / 2 or so.
+/// By default, layers are soft and their steps are not short compared with gravity's. An error of first order in h(1)
+/// would be about m v g h(1) / 2.
 TEST(Falling, AnImpactOnSoftLayersHasNoTrend) {
   Model<double, 2> model = stiff_ball(0, 3, 0x1p-9);
   model.contact->materials[0] = {0.1, 1000, 0.05 / std::sqrt(1000), 1, 0};
@@ -206,8 +206,8 @@ TEST(Falling, AnImpactOnSoftLayersHasNoTrend) {
   EXPECT_NEAR(change.mean, 0, 3 * change.error);
 }
 
-/// What lies on layers stays where it lies. At a window's end gravity forgets that it is struck, and the step that is
-/// cut then throws it g h p / 2 down.
+/// A body resting on layers stays in place. At a window's end gravity forgets that the body was struck, and the step
+/// cut there throws it down by g h p / 2.
 TEST(Falling, RestStaysRest) {
   const double h = 0x1p-10, step = 0x1p-7, part = 0x1p-5;
   Model<double, 2> model = stiff_ball((1 - part) * ball_thickness, 0, step);
@@ -226,8 +226,7 @@ TEST(Falling, RestStaysRest) {
   EXPECT_EQ(books.of(ForceKind::contact).events, 8 / h + 1) << "the first layer, each time and at the start";
 }
 
-/// A ring, points and a floor, with several stiffnesses of contact and so several h(1); windows end early, amid
-/// everything.
+/// A ring, points and a floor, with several contact stiffnesses and so several h(1). Windows end early during contact.
 Model<double, 2> several_materials(const std::string& steps) {
   const std::string text = R"({
     "noli_scene": 1, "dimension": 2, "duration": 1, "window": 0.011, "gravity": [0.3, -9.8],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each force against closed forms, at rest, and where it has no direction.
+// Compares each force with closed forms, and tests it at rest and in degenerate shapes without a direction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using integrator::VertexVectors;
 using test::greatest;
 using test::Random;
 
-/// A turn by 36.87... degrees: cosine 0.8, sine 0.6.
+/// A rotation by 36.87... degrees (cosine 0.8, sine 0.6) and a translation.
 Vec<double, 3> moved(const Vec<double, 3>& x) {
   return {0.8 * x[0] - 0.6 * x[1] + 3, 0.6 * x[0] + 0.8 * x[1] - 2, x[2] + 1};
 }
@@ -43,7 +43,7 @@ void expect_no_force_at_rest(const F& force, VertexVectors<double, F::dimension,
 TEST(RestTest, NoForceWhereTheForceWasMade) {
   Random random(5);
   for (int i = 0; i < test::shape_count; ++i) {
-    // Shapes that are not slivers: a scaled unit shape, disturbed.
+    // A perturbed, scaled unit shape, so that it is not a sliver.
     const auto r = test::random_stencil<4, 3>(random, 0.2);
     const Vec<double, 3>& x0 = r[0];
     const Vec<double, 3> x1 = r[1] + Vec<double, 3>(1, 0, 0), x2 = r[2] + Vec<double, 3>(0, 1, 0),
@@ -77,7 +77,7 @@ TEST(MembraneTest, EnergyOfAStretchedTriangle) {
   }
 }
 
-/// Pulled along one axis and free across, a small strain e takes the energy E/2 e^2 a volume: nu drops out.
+/// Stretched along one axis and free across it, a small strain e has the energy E/2 e^2 per volume: nu drops out.
 TEST(MembraneTest, UniaxialStressMeasuresYoungsModulus) {
   const double E = 7, nu = 0.25, e = 1e-5;
   const VertexVectors<double, 3, 3> rest = {Vec<double, 3>(0, 0, 0), {2, 0, 0}, {0.5, 1, 0}};
@@ -86,12 +86,12 @@ TEST(MembraneTest, UniaxialStressMeasuresYoungsModulus) {
   EXPECT_NEAR(Membrane<double>::from_rest({0, 1, 2}, rest, {E, nu, 0.5}).energy(x) / (E / 2 * e * e * 0.5), 1, 1e-4);
 }
 
-/// The edge along y; side 1 in the direction -x, side 2 turned up from +x by theta.
+/// The edge is along y; side 1 points to -x, side 2 is rotated up from +x by theta.
 VertexVectors<double, 3, 4> folded(double theta) {
   return {Vec<double, 3>(0, 0, 0), {0, 2, 0}, {-1, 0.5, 0}, {1.5 * std::cos(theta), 1, 1.5 * std::sin(theta)}};
 }
 
-/// Turns by phi.
+/// Two segments with a turn by phi.
 VertexVectors<double, 2, 3> turned(double phi) {
   return {Vec<double, 2>(-2, 0), {0, 0}, {1.5 * std::cos(phi), 1.5 * std::sin(phi)}};
 }
@@ -128,10 +128,10 @@ TEST(HingeTest, SmallAnglesKeepTheirDigits) {
   EXPECT_NEAR(hinge.energy(folded(1e-9)) / (hinge.constant / 2 * 1e-18), 1, 1e-12);
 }
 
-/// A regular mesh on a cylinder: rigidity/2 times the curvature squared an area.
+/// A regular mesh on a cylinder has rigidity/2 times the squared curvature per area.
 TEST(HingeTest, ABentStripHasTheEnergyOfAPlate) {
   const double rigidity = 3, curvature = 0.01;
-  // The three edges about a rectangle of 1 x 0.7 (diagonal, upright, level), whose pattern fills the plane.
+  // The three edges of a rectangle of 1 x 0.7 (diagonal, upright, level); its pattern tiles the plane.
   const auto at = [&](double x, double y) { return Vec<double, 3>(x, y, curvature * x * x / 2); };
   const auto energy = [&](std::array<std::array<double, 2>, 4> p) {
     VertexVectors<double, 3, 4> rest, bent;
@@ -171,7 +171,7 @@ TEST(TurningTest, EnergyOfATurn) {
   EXPECT_LT(straight.gradient(turned(-0.5))[2][1], 0);
 }
 
-/// The moment is greatest at a right angle from rest, and falls beyond.
+/// The moment is greatest at a right angle from rest, and decreases beyond.
 TEST(TurningTest, WeakensBeyondARightAngle) {
   const auto straight = Turning<double>::from_rest({0, 1, 2}, turned(0), 1);
   const auto moment = [&](double phi) {
@@ -207,7 +207,7 @@ TEST(DegenerateTest, NoAngleNoForce) {
     expect_zero(turning.measure_gradients(x)[0]);
     EXPECT_EQ(turning.energy(x), turning.constant);
   }
-  // Back on itself there is an angle, and a force if it is not the one opposite to rest.
+  // Folded back on itself, the angle exists, and so does a force unless the angle is opposite to the rest angle.
   EXPECT_GT(greatest(turning.gradient({a, b, a})), 0);
 }
 
@@ -216,7 +216,7 @@ TEST(DegenerateTest, ACrushedTrianglePushesBack) {
   const auto membrane = Membrane<double>::from_rest({0, 1, 2}, {o, p, q}, {1, 0.3, 1});
   EXPECT_TRUE(std::isfinite(membrane.energy({o, p, 0.5 * p})));
   EXPECT_GT(greatest(membrane.gradient({o, p, 0.5 * p})), 0);
-  expect_zero(membrane.gradient({o, o, o}));  // no direction to push in
+  expect_zero(membrane.gradient({o, o, o}));  // no direction for a force
 }
 
 TEST(DegenerateTest, RestShapesWithoutShapeAreRefused) {

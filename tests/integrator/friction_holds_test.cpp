@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What friction holds stays where it is, at default steps; what slides, slides by Coulomb's law; and what friction
-// remembers is part of the motion.
+// Tests that friction holds bodies in place at default steps, that sliding follows Coulomb's law, and that the memory
+// of friction is part of the motion's state.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ BuiltScene<3> built(const std::string& bodies, const std::string& rest) {
   return build_model<3>(parse_scene(text, "friction", Form::full));
 }
 
-/// A box on a plane that is level, while gravity leans by atan 1/2. All steps are the defaults.
+/// A box on a level plane, with gravity tilted by atan 1/2. All steps are the defaults.
 BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = false) {
   return built(R"({"name": "box", "mesh": {"box": {"size": [0.2, 0.2, 0.1], "cells": [2, 2, 1]}},
                    "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 5}, "translate": [-0.3, -0.3, 0.0595]}, )" +
@@ -37,7 +37,7 @@ BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = fals
                    (inclusion_exclusion ? "true}" : "false}"));
 }
 
-/// Between two plates that close on it, and hold it up against gravity.
+/// A box between two plates that close on it and hold it against gravity.
 BuiltScene<3> gripped_box() {
   const auto plate = [](const char* name, double x) {
     return std::string(R"({"name": ")") + name +
@@ -66,7 +66,7 @@ double mean_place(const Simulation<double, 3>& simulation, std::size_t vertices,
   return sum / static_cast<double>(vertices);
 }
 
-/// Speed of the first body, averaged over a second, after a second of settling [m/s].
+/// The mean speed of the first body over a second, after a second of settling [m/s].
 double creep(const BuiltScene<3>& scene, int axis) {
   Simulation<double, 3> simulation(scene.model);
   test::run(simulation, 100);
@@ -85,7 +85,7 @@ TEST(FrictionHolds, ABoxOnAnIncline) {
   EXPECT_GT(creep(box_on_an_incline(0.45), 0), 0.1);
 }
 
-/// With restitution 0 a layer gives nothing while things part, and yet the anchor stays.
+/// With restitution 0, a layer gives no impulse while bodies separate, but the anchor stays.
 TEST(FrictionHolds, WhateverTheRestitution) {
   for (const double restitution : {0.0, 0.05, 1.0}) {
     BuiltScene<3> scene = box_on_an_incline(0.55);
@@ -104,7 +104,7 @@ TEST(FrictionHolds, ABoxBetweenTwoPlates) {
 
 // --- Part of the motion ----------------------------------------------------------------------------------------------
 
-/// What a simulation that goes on from the snapshot of another one does in so many windows.
+/// The state after `windows` windows of a simulation resumed from the snapshot of another one.
 Snapshot<double, 3> gone_on(const Model<double, 3>& model, const Snapshot<double, 3>& from, std::uint64_t windows) {
   Simulation<double, 3> simulation(model, from);
   test::run(simulation, windows);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gradients of each force, and of what it measures, against differences in 60 digits; what rigid motions leave alone.
+// Compares the gradients of each force and of its measures with differences in 60 digits, and tests that rigid motions
+// leave forces unchanged.
 #include <gtest/gtest.h>
 
 #include <boost/math/constants/constants.hpp>
@@ -53,7 +54,7 @@ Big square_length(const Vec<Big, 3>& v) { return v.squaredNorm(); }
 
 Big arc_tangent(const Big& sine, const Big& cosine) { return boost::multiprecision::atan2(sine, cosine); }
 
-/// What the forces say they measure, written again in another way.
+/// The measures of the forces, implemented independently.
 template <int Dim>
 std::vector<Big> measures(const EdgeSpring<Big, Dim>&, const VertexVectors<Big, Dim, 2>& x) {
   return {boost::multiprecision::sqrt((x[1] - x[0]).squaredNorm())};
@@ -119,7 +120,7 @@ TYPED_TEST(Elastic, MeasureGradientsAreThoseOfTheMeasures) {
   }
 }
 
-/// Measures less what they are at rest.
+/// Measures minus their values at rest.
 template <int Dim>
 std::vector<Big> strains(const EdgeSpring<Big, Dim>& f, const VertexVectors<Big, Dim, 2>& x) {
   return {measures(f, x)[0] - f.rest_length};
@@ -136,7 +137,7 @@ std::vector<Big> strains(const F& f, const VertexVectors<Big, Dim, N>& x) {
   return {delta};
 }
 
-/// The energy is at most that of springs on the measures, of the stiffness that step estimates use.
+/// The energy is at most that of springs on the measures with the stiffness used by the step estimates.
 TYPED_TEST(Elastic, StiffnessBoundsTheEnergy) {
   Random random(3);
   for (int i = 0; i < test::shape_count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces side by side count once: what the sum is, and that a flat mesh acts as a plane.
+// Tests inclusion-exclusion: adjacent faces count once, the sum has its defined value, and a flat mesh acts as a plane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace {
 
 constexpr double first_layer = 0.01;
 
-// --- What the sum is -------------------------------------------------------------------------------------------------
+// --- The value of the sum --------------------------------------------------------------------------------------------
 
-/// A vertex, number 0, and faces.
+/// Vertex 0 and faces near it.
 struct Neighbourhood {
   std::vector<Vec<double, 3>> x;
   std::vector<std::array<VertexId, 3>> faces;
@@ -44,7 +44,7 @@ struct Neighbourhood {
   }
 };
 
-/// A fan of n faces around vertex 1, closed or not, whose outer vertices are at `outer(k)`, and a vertex at x.
+/// A fan of n faces around vertex 1, closed or not, with outer vertices at `outer(k)`, and a vertex at x.
 template <class Outer>
 Neighbourhood fan(int n, bool closed, const Vec<double, 3>& x, const Outer& outer) {
   Neighbourhood result{{x, Vec<double, 3>::Zero()}, {}};
@@ -55,7 +55,7 @@ Neighbourhood fan(int n, bool closed, const Vec<double, 3>& x, const Outer& oute
   return result;
 }
 
-/// On a cone whose sides rise by `rise`.
+/// A fan on a cone whose sides rise by `rise`.
 Neighbourhood cone(int n, double rise, const Vec<double, 3>& x) {
   return fan(n, true, x, [&](int k) {
     const double angle = 2 * std::numbers::pi * (k + 0.3) / n;
@@ -69,7 +69,7 @@ struct Sum {
   std::size_t sites = 0;
 };
 
-/// Of a layer of stiffness 1, as the integrator has it; pairs come in the order `order`.
+/// The integrator's sum for a layer of stiffness 1, with pairs in the order `order`.
 Sum joined(const Neighbourhood& n, double eta, const std::vector<std::size_t>& order) {
   InclusionExclusion<double, 3> joined;
   const auto position = [&n](VertexId v) { return n.x[v]; };
@@ -97,7 +97,7 @@ Sum joined(const Neighbourhood& n, double eta) {
   return joined(n, eta, order);
 }
 
-/// Faces - interior edges + interior vertices, from the mesh as a whole.
+/// Faces - interior edges + interior vertices, computed from the whole mesh.
 double potential_by_definition(const Neighbourhood& n, double eta) {
   const auto layer = [eta](double d) { return d < eta ? 0.5 * (d - eta) * (d - eta) : 0.0; };
   std::map<std::set<VertexId>, int> of_edge;
@@ -136,7 +136,7 @@ TEST(InclusionExclusion, TheTipOfAConeCountsOnce) {
   const Sum tip = joined(cone(7, -1, {0, 0, 0.004}), first_layer);
   EXPECT_EQ(tip.sites, 1U);
   EXPECT_NEAR(tip.potential, 0.5 * 0.006 * 0.006, 1e-15);
-  // Inside of the cone each face is a wall, and so much of their edges and of the tip is taken off or added.
+  // Inside the cone each face is a wall, and edges and the tip are subtracted or added.
   EXPECT_GT(joined(cone(7, 1, {0, 0, 0.004}), first_layer).sites, 7U);
 }
 
@@ -193,7 +193,7 @@ TEST(InclusionExclusion, OrderOfCellsMakesNoDifference) {
 
 // --- Two sheets ------------------------------------------------------------------------------------------------------
 
-/// Two patches of 3 by 3 vertices each, one above the other and turned; `bumps`: how uneven they are [m].
+/// Two patches of 3 by 3 vertices each, one above the other and rotated; `bumps`: their unevenness [m].
 struct Patches {
   Mesh mesh;
   std::vector<Vec<double, 3>> x;
@@ -216,7 +216,7 @@ struct Patches {
     }
   }
 
-  /// All pairs of features of the two, by key.
+  /// All pairs of features of the two patches, sorted by key.
   std::vector<certificates::Stencil> pairs() const {
     const certificates::Features features(mesh, 3);
     std::vector<certificates::Stencil> all;
@@ -233,10 +233,10 @@ struct Patches {
 struct LayerSum {
   double potential = 0;
   std::vector<Vec<double, 3>> forces;
-  int edges = 0;  ///< sites that are two edges
+  int edges = 0;  ///< sites of two edges
 };
 
-/// Of a layer of stiffness 1.
+/// The sum over a layer of stiffness 1.
 LayerSum layer_of(const Patches& patches, const std::vector<certificates::Stencil>& pairs, bool joins) {
   const LayerFire<double, 3> layer(joins);
   LayerSum sum{0, std::vector<Vec<double, 3>>(patches.x.size(), Vec<double, 3>::Zero()), 0};
@@ -252,8 +252,8 @@ LayerSum layer_of(const Patches& patches, const std::vector<certificates::Stenci
   return sum;
 }
 
-/// A flat patch above a flat one of ten times its size, across an edge away from its vertices. However it is tilted,
-/// it is pushed straight up.
+/// A flat patch lies above a flat one ten times as large, across an edge and away from its vertices. However the patch
+/// is tilted, it is pushed straight up.
 TEST(EdgeExcess, AFlatFloorPushesStraightUp) {
   noli::test::Random random(5);
   int tilted = 0;
@@ -306,7 +306,7 @@ TEST(EdgeExcess, ForcesAreTheGradient) {
   EXPECT_GT(edges, 50);
 }
 
-/// Two edges of a ridge each that cross, ends far away: as if there were nothing else.
+/// Two ridges cross far from their ends, and their edges push as if nothing else were there.
 TEST(EdgeExcess, RidgesThatCrossPush) {
   Patches ridges = [] {
     noli::test::Random random(7);
@@ -325,7 +325,7 @@ TEST(EdgeExcess, RidgesThatCrossPush) {
   }
   std::ranges::sort(pairs, {}, &certificates::Stencil::key);
   EXPECT_NEAR(layer_of(ridges, pairs, true).potential, 0.5 * 0.006 * 0.006, 1e-15);
-  // A ridge that comes down beside the end of the other one is kept away by the end alone.
+  // A ridge beside the end of the other one is pushed only by that end.
   for (const VertexId k : {9U, 10U, 11U, 12U}) ridges.x[k][0] -= 0.105;
   const LayerSum beside = layer_of(ridges, pairs, true);
   EXPECT_EQ(beside.edges, 0);
@@ -334,8 +334,8 @@ TEST(EdgeExcess, RidgesThatCrossPush) {
 
 // --- A flat mesh acts as a plane -------------------------------------------------------------------------------------
 
-/// Two pinned triangles, which make a square from (-1, -1) to (1, 1) with one diagonal, and points above it that come
-/// down at 1 m/s, `from_edge` from the diagonal.
+/// Two pinned triangles form a square from (-1, -1) to (1, 1) with one diagonal. Points above it fall at 1 m/s, at
+/// distances `from_edge` from the diagonal.
 Model<double, 3> points_above_a_floor(const std::vector<double>& from_edge) {
   std::vector<Vec<double, 3>> x;
   for (std::size_t k = 0; k < from_edge.size(); ++k) {
@@ -351,7 +351,7 @@ Model<double, 3> points_above_a_floor(const std::vector<double>& from_edge) {
   return test::both(test::moved(test::points<3>(std::move(x), 1), {0, 0, 0}, {0, 0, -1}), test::held(std::move(floor)));
 }
 
-/// What has come down from 2 cm at 1 m/s, when it has left again.
+/// The state after the bounce of bodies that fall from 2 cm at 1 m/s.
 template <int Dim>
 Snapshot<double, Dim> after_the_bounce(Model<double, Dim> model, bool inclusion_exclusion) {
   model = test::with_contact(std::move(model), {first_layer, 1000});
@@ -383,8 +383,8 @@ TEST(InclusionExclusion, APointLeavesAFlatFloorAsItCame) {
   EXPECT_GT(each, 5);
 }
 
-/// A box of 10 cm that lands flat on a floor of squares of 25 cm with a diagonal each: across some of its edges, or
-/// with a side 3 mm beside one. How much its momentum leans when it has left, in degrees.
+/// A box of 10 cm lands flat on a floor of squares of 25 cm with a diagonal each: across some edges, or with a side
+/// 3 mm beside one. Returns the angle of its momentum to the vertical after the bounce, in degrees.
 double lean_of_a_box(double x, double turn, bool inclusion_exclusion) {
   const Json json = {
       {"noli_scene", 1},
@@ -429,7 +429,7 @@ struct Groove {
   int windows = 0;
 };
 
-/// The velocity of a point of 1 kg, at first 15 mm above the bottom of a groove of two wide faces along y.
+/// The final velocity of a point of 1 kg that starts 15 mm above the bottom of a groove of two wide faces along y.
 Vec<double, 3> velocity_in(const Groove& o, bool inclusion_exclusion) {
   Model<double, 3> groove;
   groove.mesh.vertex_count = 4;
@@ -447,7 +447,7 @@ Vec<double, 3> velocity_in(const Groove& o, bool inclusion_exclusion) {
   return simulation.snapshot().v[0];
 }
 
-/// What pulls there is has to lose as much as what pushes, or nothing would leave.
+/// Restitution must reduce pulling terms like pushing ones, or the point would never leave.
 TEST(Crease, ReturnsItsShareOfTheEnergy) {
   for (const double restitution : {1.0, 0.25, 0.01}) {
     const Groove down{.restitution = restitution, .v = {0, 0, -0.5}, .windows = restitution < 0.1 ? 60 : 20};
@@ -458,7 +458,7 @@ TEST(Crease, ReturnsItsShareOfTheEnergy) {
   }
 }
 
-/// Two walls together rub as much as their push together: along the groove it slides as on a plane.
+/// The friction of both walls follows their total push: along the groove, the point slides as on a plane.
 TEST(Crease, RubsByItsPushAsAWhole) {
   const Groove along{.restitution = 0.25, .friction = 0.4, .gravity = {0, 6, -10}, .windows = 60};
   const double before = velocity_in(along, true)[1];
@@ -519,7 +519,7 @@ TEST(InclusionExclusion, KeepsMomentaAndItsBooks) {
   EXPECT_NEAR(after.kinetic - before.kinetic, work, 1e-10 * before.kinetic);
 }
 
-/// In the plane: the same on a floor of four edges in a row, near their ends.
+/// The same in the plane, near the ends of four edges in a row.
 TEST(InclusionExclusion, InThePlaneToo) {
   Model<double, 2> floor = test::held(test::chain<2>({{-1, 0}, {0, 0}, {0.5, 0}, {1, 0}, {2, 0}}, false, 1, 1));
   std::vector<Vec<double, 2>> x{{0.003, 0.02}, {0.499, 0.02}, {1, 0.02}, {0.25, 0.02}, {0.98, 0.02}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small models for tests of the integrator.
+// Builds small models for tests of the integrator.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace noli::integrator::test {
 
-/// A number in [-1, 1] that depends on i alone.
+/// A number in [-1, 1] that depends only on i.
 inline double noise(std::uint64_t i) {
   i = (i + 0x9e3779b97f4a7c15) * 0xbf58476d1ce4e5b9;
   i = (i ^ (i >> 27)) * 0x94d049bb133111eb;
@@ -32,7 +32,7 @@ Model<double, Dim> spring_pair(double m0, double m1, double k, double stretch, d
   return model;
 }
 
-/// Steps from the estimate, times a factor.
+/// Sets steps to the estimate times a factor.
 template <int Dim>
 void choose_steps(Model<double, Dim>& model, double factor) {
   std::vector<double> w(model.x.size());
@@ -45,15 +45,15 @@ void choose_steps(Model<double, Dim>& model, double factor) {
 struct SheetOptions {
   int cells = 6;         ///< along each side
   double size = 1;       ///< [m]
-  double wave = 0.1;     ///< of the start shape, out of the plane [m]
-  double speed = 0.5;    ///< of the random start velocities [m/s]
+  double wave = 0.1;     ///< of the initial shape, out of the plane [m]
+  double speed = 0.5;    ///< of the random initial velocities [m/s]
   double damping = 0;    ///< [s]
   double window = 0.01;  ///< [s]
   bool membrane = true;  ///< else edge springs
   SheetMaterial<double> material{1e4, 0.3, 1e-3};
 };
 
-/// A square sheet of triangles that is not at rest and free in space.
+/// A square sheet of triangles, free in space and not at rest.
 inline Model<double, 3> sheet(const SheetOptions& o) {
   Model<double, 3> model;
   const int n = o.cells;

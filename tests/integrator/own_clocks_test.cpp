@@ -11,7 +11,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Events as (time, number), from a sorted set: what the calendar must give.
+/// Gives events as (time, number) from a sorted set, in the order that the calendar must follow.
 class Reference {
  public:
   Reference(const std::vector<double>& steps, double now) {
@@ -78,7 +78,7 @@ TEST(Calendar, EqualTimesComeByNumber) {
 
 TEST(Calendar, OneStepMayBeFarLongerThanTheOthers) { expect_order({1e-4, 1e-4, 3.0, 1e-4}, 0, 200'000); }
 
-/// Longer than the calendar: such an event meets its page more than once before its time.
+/// Steps longer than the calendar: the calendar passes the event's page more than once before its time.
 TEST(Calendar, EventsWaitForAnotherYear) {
   expect_order({1e-6, 0.5, 0.3, 20.0}, 0, 1'100'000);
   expect_order({1e-6, 0.5, 0.3, 1e6}, 5.1, 600'000);

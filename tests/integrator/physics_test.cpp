@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a simulation does over many periods, against theory.
+// Compares simulations over many periods with theory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Frequency of a series about `middle`, from the times at which it comes up through it.
+/// The frequency of a series around `middle`, from its upward crossings.
 double frequency(const std::vector<double>& series, double middle, double interval) {
   std::vector<double> up;
   for (std::size_t k = 1; k < series.size(); ++k) {
@@ -27,7 +27,8 @@ double frequency(const std::vector<double>& series, double middle, double interv
   return static_cast<double>(up.size() - 1) / (up.back() - up.front());
 }
 
-/// The scene's beam with another number of segments. Its length counts from the middle of the clamped one.
+/// The frequency of the scene's beam with another number of segments. Its length starts at the middle of the clamped
+/// segment.
 double cantilever_frequency(int segments) {
   constexpr double length = 0.5, window = 0.005;
   Json json = parse_json(read_whole_file(std::filesystem::path(NOLI_SOURCE_DIR) / "scenes/cantilever.json"), "scene");
@@ -54,11 +55,11 @@ TEST(Physics, ACantileverHasItsFrequency) {
   EXPECT_NEAR(coarse / fine, 4, 1);
 }
 
-/// A taut string of n segments between fixed ends: of its first mode, sin(pi x / L) sqrt(tension / density), a lumped
-/// string has the frequency (2 n / (2 pi L)) sin(pi / 2n) sqrt(T / rho), of second order in 1/n. The deflection is
+/// The frequency of the first mode, sin(pi x / L), of a taut string of n segments between fixed ends. A lumped string
+/// has the frequency (2 n / (2 pi L)) sin(pi / 2n) sqrt(tension / density), of second order in 1/n. The deflection is
 /// small enough not to change the tension.
 double string_frequency(int segments) {
-  constexpr double length = 2, tension = 3, density = 0.5, natural = 0.5;  // of the rest length to the length
+  constexpr double length = 2, tension = 3, density = 0.5, natural = 0.5;  // natural: rest length over length
   Model<double, 2> model;
   const double d = length / segments, k = tension / (d * (1 - natural));
   const double step = 0.05 * std::sqrt(density * d / (4 * k));
@@ -89,7 +90,7 @@ TEST(Physics, AStringHasItsFrequency) {
   EXPECT_NEAR(coarse / fine, 4, 0.4);
 }
 
-/// Masses on springs of very different stiffness, so that steps differ by two powers of two and more.
+/// Masses on springs of very different stiffness, so that steps differ by a factor of four or more.
 Model<double, 2> uneven_chain() {
   Model<double, 2> model;
   const std::vector<double> stiffness = {1, 30, 1000, 5, 200};
@@ -114,7 +115,7 @@ TEST(Physics, EnergyHasNoTrendOverAThousandPeriods) {
     const auto s = simulation.state();
     return s.kinetic_mean + s.potential_sum();
   };
-  // The softest spring between the masses on its sides makes the slowest motion; a thousand of its periods.
+  // A thousand periods of the slowest motion, that of the softest spring between the masses on its sides.
   constexpr int windows = 13'000;
   std::vector<double> all;
   for (int i = 0; i < windows; ++i) {

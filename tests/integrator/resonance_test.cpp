@@ -11,8 +11,9 @@ namespace {
 
 using integrator::Oscillation;
 
-/// Measured apart: `slow` slow steps are `fast` fast ones; the least h2 omega2, in hundredths, that is unstable for one
-/// of the soft springs. The hundredths matter: 5:2 is also unstable in [0.5504, 0.5550], between two of them.
+/// Measured separately: `slow` slow steps equal `fast` fast ones, and `edge` is the least h2 omega2, in hundredths,
+/// that is unstable for one of the soft springs. Hundredths matter: 5:2 is also unstable in [0.5504, 0.5550], between
+/// two of them.
 struct Row {
   int fast, slow;
   double edge;
@@ -56,7 +57,7 @@ TEST(ResonanceTest, WarningsFireOnTheTable) {
   }
 }
 
-/// Where the slow step is a multiple of the fast one the formula's trace is that of the product.
+/// If the slow step is a multiple of the fast one, the formula gives the trace of the product.
 TEST(ResonanceTest, FormulaIsTheTrace) {
   for (const Row& row : table) {
     if (row.slow != 1) continue;
@@ -71,7 +72,7 @@ TEST(ResonanceTest, FormulaIsTheTrace) {
   }
 }
 
-/// The tongue, and its law for a fast spring that is well resolved.
+/// Tests the tongue's edges, and its law for a well resolved fast spring.
 TEST(ResonanceTest, EdgesOfATongue) {
   constexpr double pi = std::numbers::pi;
   const double kappa = 0.63, edge = pi - 2 * std::atan(kappa / 2);
@@ -93,7 +94,7 @@ TEST(ResonanceTest, NarrowTongueBetweenTheTablesHundredths) {
   EXPECT_FALSE(integrator::resonant(slow_of(row, 0.5555, 0.25), fast_of(0.5555)));
 }
 
-/// Iterating the kicks themselves: the mass flies off if and only if there is a warning.
+/// Iterates the kicks directly: the mass flies off iff there is a warning.
 TEST(ResonanceTest, WarningsTellWhatAMassDoes) {
   for (const Row& row : table) {
     for (const double side : {0.9, 1.0}) {
@@ -134,7 +135,7 @@ TEST(ResonanceTest, PairsAreNamed) {
     }
   }
   EXPECT_NEAR(integrator::resonance(slow, fast)->phase, 2.7, 0.02);
-  // Steps without a common period: the formula.
+  // Steps without a common period use the formula.
   EXPECT_TRUE(integrator::resonant({2.7 * std::numbers::sqrt2 / 1.4, 0.5}, fast));
   EXPECT_FALSE(integrator::resonant({std::numbers::sqrt2, 0.5}, fast));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Running simulations, and comparing them bit for bit.
+// Runs simulations and compares them bit for bit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace noli::integrator::test {
 
-/// The books of so many windows together.
+/// The energy accounts of `windows` windows, added up.
 template <int Dim, class Run>
 Books<double, Dim> run_of(Run& simulation, std::uint64_t windows) {
   Books<double, Dim> books;

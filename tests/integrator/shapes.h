@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forces at rest in shapes of their own, and others to try them in.
+// Generates random forces with their rest shapes, and shapes to test them in.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace noli::test {
 
-/// Of each force so many shapes are tried.
+/// The number of shapes tested for each force.
 inline constexpr int shape_count = 100;
 
-/// Each coordinate in [-reach, reach).
+/// Random positions with coordinates in [-reach, reach).
 template <std::size_t N, int Dim>
 integrator::VertexVectors<double, Dim, N> random_stencil(Random& random, double reach) {
   integrator::VertexVectors<double, Dim, N> x;
@@ -61,7 +61,7 @@ inline integrator::Turning<double> random_force(Random& random) {
   return integrator::Turning<double>::from_rest({0, 1, 2}, random_stencil<3, 2>(random, 1), 2, 0.1);
 }
 
-/// The same force in another number type. Angles are made anew: cosine and sine are those of an angle in that type too.
+/// The same force in another number type. Angles are recomputed, so that cosine and sine match in that type too.
 template <class S>
 integrator::Angle<S> convert(const integrator::Angle<double>& a) {
   using std::sqrt;

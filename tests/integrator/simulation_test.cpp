@@ -25,7 +25,7 @@ TEST(Simulation, SpringPairIsVerletsSolution) {
   constexpr double m0 = 2, m1 = 0.5, k = 30, h = 0x1p-6, stretch = 0.25;
   Simulation<double, 3> simulation(spring_pair<3>(m0, m1, k, stretch, h));
   const double omega = std::sqrt(k * (1 / m0 + 1 / m1));
-  const double phase = 2 * std::asin(0.5 * h * omega);  // of one step: Verlet's solution is a cosine of it, exactly
+  const double phase = 2 * std::asin(0.5 * h * omega);  // phase of a step; Verlet's solution is exactly a cosine
   for (int window = 1; window <= 20; ++window) {
     run(simulation, 1);
     const auto s = simulation.snapshot();
@@ -107,7 +107,7 @@ TEST(Simulation, SlowMomentaOfAFreeSheetStayAfterTenMillionEvents) {
   EXPECT_LE((after.angular_momentum - before.angular_momentum).norm(), 1e-12 * after.moments);
 }
 
-/// The largest error of the energy at the ends of windows.
+/// The largest energy error at ends of windows.
 double energy_error(double factor, std::uint64_t windows) {
   Model<double, 3> model = sheet({});
   model.v.assign(model.x.size(), Vec<double, 3>::Zero());
@@ -138,7 +138,7 @@ TEST(Simulation, TimeCanBeReversed) {
   const auto there = forth.snapshot();
   Model<double, 3> back_model = model;
   back_model.x = there.x;
-  // The closing half kick of the way there: v_mean is the velocity of this time, from which a run begins.
+  // The closing half kick of the forward run: v_mean is the velocity at this time, from which the backward run starts.
   back_model.v = forth.mean_velocities();
   for (auto& v : back_model.v) v = -v;
   Simulation<double, 3> back(back_model);
@@ -306,7 +306,7 @@ TEST(Simulation, ModelsThatAreNoneAreRefused) {
   EXPECT_THROW((Simulation<double, 3>{bad}), std::invalid_argument);
 }
 
-/// Algorithm 1 for clocks of their own, as plainly as can be: one force after the other, from a sorted list.
+/// A plain implementation of Algorithm 1 with own clocks: fires one force after the other, from a sorted list.
 class OneByOne {
  public:
   explicit OneByOne(const Model<double, 3>& model) : model_(model), t_(model.x.size(), 0.0) {
@@ -367,7 +367,7 @@ class OneByOne {
   double begin_ = 0;
 };
 
-/// Forces that have no vertex in common are fired together; nobody must notice.
+/// Forces without a common vertex are fired together, which must not change the result.
 TEST(Simulation, WithClocksOfTheirOwnForcesFireAsIfOneByOne) {
   for (const int cells : {1, 3, 12}) {
     SheetOptions options;

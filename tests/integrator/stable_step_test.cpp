@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The estimated limits against the true one, 2 / omega_max with the greatest frequency of the assembled system, and
-// that against what happens to a mesh stepped below and above it.
+// Compares the estimated limits of steps with the true limit, 2 / omega_max of the assembled system, and that limit
+// with the behaviour of a mesh stepped below and above it.
 #include "integrator/stable_step.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ struct System {
     return sum;
   }
 
-  /// M^-1/2 Hess V M^-1/2 at x, by differences.
+  /// M^-1/2 Hess V M^-1/2 at x, computed by differences.
   Eigen::MatrixXd dynamical_matrix() const {
     const auto n = static_cast<Eigen::Index>(x.size()) * Dim;
     const double step = 1e-6;
@@ -78,7 +78,7 @@ struct System {
     return *std::min_element(limits.begin(), limits.end());
   }
 
-  /// How much a small disturbance grows in so many steps of Verlet.
+  /// The growth of a small disturbance in `steps` steps of Verlet's method.
   double growth(double h, int steps) const {
     const double size = 1e-12;
     Random random(9);
@@ -99,7 +99,7 @@ struct System {
   }
 };
 
-/// A sheet of 5 x 4 vertices, uneven in all directions; vertex (i, j) has the number 5 j + i.
+/// A sheet of 5 x 4 vertices, perturbed in all directions; vertex (i, j) has the number 5 j + i.
 struct Sheet {
   static constexpr VertexId columns = 5, rows = 4;
   Points<3> x;
@@ -117,7 +117,7 @@ struct Sheet {
   }
   static VertexId id(VertexId i, VertexId j) { return columns * j + i; }
 
-  /// Calls use(a, b, c) for each triangle; with its right angle, if it has one, at b.
+  /// Calls use(a, b, c) for each triangle, with its right angle, if it has one, at b.
   template <class Use>
   static void triangles(const Use& use) {
     for (VertexId j = 0; j + 1 < rows; ++j) {
@@ -165,7 +165,7 @@ System<EdgeSpring<double, 3>> springs(const Sheet& sheet) {
     system.list.add({{a, b}, 10, (sheet.x[a] - sheet.x[b]).norm(), 0}, 1);
   };
   Sheet::triangles([&](VertexId a, VertexId b, VertexId c) {
-    add(a, b);  // sides on the border once, others twice: springs need not be equal
+    add(a, b);  // border sides once, others twice, so springs are not all equal
     add(b, c);
     add(c, a);
   });
@@ -209,7 +209,7 @@ TEST(StableStepTest, EstimatesAreBelowTheTrueLimitAndNotFarBelow) {
   }
 }
 
-/// One spring between two equal masses: omega^2 = 2 k / m, and the sum of kappa over it is just that.
+/// One spring between two equal masses has omega^2 = 2 k / m, which is also the sum of kappa.
 TEST(StableStepTest, OneSpring) {
   System<EdgeSpring<double, 2>> system;
   system.x = {{0, 0}, {1, 0}};

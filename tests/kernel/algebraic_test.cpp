@@ -97,7 +97,7 @@ TEST(Polynomials, SignsAtRationals) {
 
 // --- roots
 
-/// Products of known rational factors, some repeated, times one without a root: all roots come back, in order, each
+/// Multiplies known rational factors, some repeated, and one without a root. All roots must be found, in order, each
 /// once.
 TEST(Roots, KnownRationalRootsAreFound) {
   Random random(2);
@@ -131,8 +131,7 @@ TEST(Roots, CloseRootsAreTakenApart) {
   EXPECT_EQ(roots_in_unit_interval(scaled).size(), 2u);
 }
 
-/// The number of sign changes on a fine grid is a lower bound for the number of roots, and has their parity between its
-/// points.
+/// Compares with sign changes on a fine grid. They are a lower bound for the number of roots and have its parity.
 TEST(Roots, NoneIsMissedByAGrid) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
@@ -191,7 +190,7 @@ TEST(AlgebraicNumbers, NearlyEqualNumbersAreTold) {
   }
 }
 
-/// Signs and comparisons agree with each other: t < r_1 < r_2 ... decides the sign of p at t.
+/// Signs and comparisons agree: the number of roots of p later than t decides the sign of p at t.
 TEST(AlgebraicNumbers, SignsFollowFromTheOrderOfRoots) {
   Random random(4);
   for (int i = 0; i < 2000; ++i) {
@@ -212,7 +211,7 @@ TEST(AlgebraicNumbers, SignsFollowFromTheOrderOfRoots) {
   }
 }
 
-/// The definition of the double below, with tiny roots too.
+/// Tests floor() by its definition, also for tiny roots.
 TEST(AlgebraicNumbers, FloorIsTheLargestDoubleBelow) {
   Random random(5);
   for (int i = 0; i < 3000; ++i) {

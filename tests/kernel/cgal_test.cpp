@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// g++ 12 sees a use after free in CGAL's reference counting at -O3 where there is none.
+// g++ 12 wrongly reports a use after free in CGAL's reference counting at -O3.
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
 #pragma GCC diagnostic ignored "-Wuse-after-free"
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact, and each of the stages that decide it, against the oracle.
+// Compares contact, and each stage that decides it, with the oracle.
 #include <noli/contact.h>
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ std::string text(const Query& q) {
   return out.str();
 }
 
-/// Contact and its enclosure agree with the oracle; both answers occur.
+/// Compares contact and its enclosure with the oracle, and expects both answers to occur.
 template <FeaturePair Pair, int Dim>
 void compare_with_oracle(Coordinates how, int count, StageCounters& counters) {
   std::mt19937_64 random(static_cast<std::uint64_t>(how) + 1);
@@ -83,7 +83,7 @@ TEST(Contact, VertexEdgeAndVertexVertexAgreeWithTheOracle) {
   compare_all<FeaturePair::vertex_vertex, 2>(2000);
 }
 
-// --- Each stage by itself: silent, or right -------------------------------------------------------------------------
+// --- Each stage alone must be right or give no answer ---------------------------------------------------------------
 
 struct StageResult {
   int wrong = 0;
@@ -134,7 +134,7 @@ void check_float_stages() {
   if (rounding_self_test().directed_ok) expect_useful(interval);
 }
 
-/// The cubic is computed for both ends at once; that it is the formula's is not only a matter of error bounds.
+/// The filter computes the cubic for both ends at once. It must equal the formula's exactly, not only within bounds.
 template <class Filter, FeaturePair Pair>
 void expect_cubic_of_the_formula() {
   std::mt19937_64 random(9);
@@ -162,7 +162,7 @@ TEST(Stages, FloatingPointIsSilentOrRightForEdgeEdge) {
   check_float_stages<filter::EdgeEdgeFilter, FeaturePair::edge_edge>();
 }
 
-/// One limb, two limbs, and any axis to begin with: the answer is the same.
+/// Tests one limb and two limbs, starting with each axis.
 template <FeaturePair Pair>
 void check_fixed_width() {
   StageResult one_limb, two_limbs;
@@ -189,7 +189,7 @@ TEST(Stages, FixedWidthIsSilentOrRightForEdgeEdge) { check_fixed_width<FeaturePa
 
 // --- By hand --------------------------------------------------------------------------------------------------------
 
-/// A vertex that falls on the face (0,0,0) (1,0,0) (0,1,0), from z_t0 to z_t1 above (x, y).
+/// A vertex that falls from z_t0 to z_t1 above (x, y), onto the face (0,0,0) (1,0,0) (0,1,0).
 VertexFace3 falling(double x, double y, double z_t0, double z_t1) {
   const Point3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
   return {{Point3{x, y, z_t0}, a, b, c}, {Point3{x, y, z_t1}, a, b, c}};
@@ -215,8 +215,8 @@ TEST(Contact, AContactAtAnEndOfTheStepCounts) {
 }
 
 TEST(Contact, TwoCrossingsInOneStepAreSeen) {
-  // The face turns in the plane z = (2 t - 1) x, below the vertex 2 (t - 1/2)^2 high: through 1/8 at t = 1/4 and at t =
-  // 3/4.
+  // The face turns in the plane z = (2 t - 1) x. Its height below the vertex is 2 (t - 1/2)^2, which is 1/8 at t = 1/4
+  // and at t = 3/4.
   VertexFace3 q{{Point3{-0.5, -0.5, 0.125}, Point3{-1, -1, 1}, Point3{1, -1, -1}, Point3{0, 1, 0}},
                 {Point3{0.5, -0.5, 0.125}, Point3{-1, -1, -1}, Point3{1, -1, 1}, Point3{0, 1, 0}}};
   const auto first = contact(q);
@@ -224,7 +224,7 @@ TEST(Contact, TwoCrossingsInOneStepAreSeen) {
   EXPECT_LE(first->begin, 0.25);
   EXPECT_GE(first->end, 0.25);
   EXPECT_LT(first->end, 0.75);
-  q.x_t0[0][2] = q.x_t1[0][2] = -0x1p-60;  // now it stays below
+  q.x_t0[0][2] = q.x_t1[0][2] = -0x1p-60;  // now the vertex stays below
   EXPECT_FALSE(meet(q));
 }
 
@@ -246,7 +246,7 @@ TEST(Contact, EdgesThatOverlapOnALineMeet) {
   EXPECT_FALSE(meet(q));
 }
 
-/// At t = 1/2 the face is a point; the simple root of the cubic, t = 1/4, has numerator and denominator beyond the
+/// At t = 1/2 the face is a point. The simple root of the cubic, t = 1/4, has a numerator and a denominator beyond the
 /// range of double.
 TEST(Contact, ARootTooLargeForDoubleIsStillARoot) {
   for (const double x : {0x1p-80, 0x1p-112, 0x1p-115}) {
@@ -279,7 +279,7 @@ TEST(Contact, TwoRootsNextToEachOtherAreKeptApart) {
                               {Point3{2, -1, 1}, Point3{-2, -2, 0}, Point3{-2, 1, 2}, Point3{-1, 0, 1}}}));
 }
 
-/// One axis shrunk by a power of two changes nothing but what double can still see.
+/// Shrinking one axis by a power of two must not change the answer.
 template <FeaturePair Pair>
 void compare_shrunk() {
   std::mt19937_64 random(9);

@@ -27,8 +27,8 @@ bool fails_at(const A& a, const B& b, const Point<Dim>& n, double g, const mpq_c
   return sum <= 0;
 }
 
-/// The definition: not late (no failure before the answer), and not earlier than rounding down makes it. As the margin
-/// is linear, the ends of an interval tell about all of it.
+/// Checks the definition: no failure before the answer, and no earlier answer than rounding down requires. The margin
+/// is linear, so the ends of an interval decide for all of it.
 template <int Dim, class A, class B>
 void check(const A& a, const B& b, const Point<Dim>& n, double g, double from) {
   const double t = failure_time(a, b, n, g, from);
@@ -110,7 +110,7 @@ TEST(FailureTime, RoundsDown) {
   EXPECT_EQ(failure_time(falling, still, Point3{1, 0, 0}, 0, 0), 0x1.5555555555555p-2);
   const Ray<3> later{0, {5, 0, 0}, {-3, 0, 0}};
   EXPECT_EQ(failure_time(later, still, Point3{1, 0, 0}, 0, 0),
-            0x1.aaaaaaaaaaaaap0);  // the double nearest to 5/3 is late
+            0x1.aaaaaaaaaaaaap0);  // the double nearest to 5/3 is too late
 }
 
 TEST(FailureTime, FailedAlready) {
@@ -151,7 +151,7 @@ void check(const Ray<Dim>& p, const Certificate& certificate, double from, doubl
     ASSERT_TRUE(exactly(end)) << "late";
     const double next = std::nextafter(end, infinity);
     ASSERT_TRUE(next == infinity || !exactly(next)) << "earlier than need be";
-    // Where decisions are hardest: at the end itself.
+    // Decisions are hardest at the end itself.
     ASSERT_TRUE(holds_until(p, certificate, from, end));
     ASSERT_TRUE(next == infinity || !holds_until(p, certificate, from, next));
   }
@@ -171,7 +171,7 @@ void check_walls_and_balls(std::uint64_t seed, int count) {
                                numbers.value(),      std::abs(numbers.value()), random.below(2) == 0};
     ASSERT_NO_FATAL_FAILURE(check<Dim>(p, wall, from, later));
     MovingBall<Dim> ball{numbers.ray<Dim>(), std::abs(numbers.value())};
-    if (random.below(2) == 0) {  // rather near
+    if (random.below(2) == 0) {  // close to it
       ball.centre = p;
       for (double& v : ball.centre.v) v += numbers.value();
     }

@@ -34,7 +34,8 @@ double time_of(const Query& query) {
 
 // --- against the oracle
 
-/// Kind, first double, and the order of the times of successive contacts. Every kind that the pair can have occurs.
+/// Compares the kind, the first double, and the order of successive contact times. Expects every possible kind to
+/// occur.
 template <class Query>
 void compare_with_oracle(std::uint64_t seed, int count, int kinds_possible) {
   Random random(seed);
@@ -67,7 +68,7 @@ TEST(FirstContact, VertexVertexAsOracle) { compare_with_oracle<VertexVertex3>(4,
 TEST(FirstContact, VertexEdgeInThePlaneAsOracle) { compare_with_oracle<VertexEdge2>(5, 2000, 4); }
 TEST(FirstContact, VertexVertexInThePlaneAsOracle) { compare_with_oracle<VertexVertex2>(6, 4000, 3); }
 
-/// All pairs of many times of contact, equal ones included, in the order that the oracle says.
+/// All pairs of many contact times, equal ones included, must compare as in the oracle.
 TEST(SlowFirstContact, MillionPairsOfTimesCompareAsOracle) {
   Random random(7);
   std::vector<std::pair<TimeOfImpact, oracle::Time>> times;
@@ -91,9 +92,9 @@ TEST(SlowFirstContact, MillionPairsOfTimesCompareAsOracle) {
   EXPECT_GT(equal[1], 10000);
 }
 
-// --- made backwards from a known time
+// --- constructed from a known time
 
-/// A vertex that passes the plane of a face with corners (0,0), (4,0), (0,4) at (x, y), at time t0 = 1/4.
+/// A vertex that passes through the plane of a face with corners (0,0), (4,0), (0,4) at (x, y), at time t0 = 1/4.
 VertexFace3 piercing(double x, double y) {
   VertexFace3 q;
   q.x_t0 = {{{x, y, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
@@ -134,7 +135,7 @@ TEST(FirstContact, SlidingIntoAFaceLasts) {
   EXPECT_EQ(kind_of(q), ContactKind::persistent);
   EXPECT_EQ(time_of(q), 0.5);
   q.x_t0[0] = {-1, 1, 0};
-  q.x_t1[0] = {1, -1, 0};  // through the corner only
+  q.x_t1[0] = {1, -1, 0};  // only through the corner
   EXPECT_EQ(kind_of(q), ContactKind::touching);
   EXPECT_EQ(time_of(q), 0.5);
   q.x_t1[0] = {0, 1, 0};  // arrives at the last instant
@@ -149,7 +150,7 @@ TEST(FirstContact, EdgesCross) {
   q.x_t1 = {{{-1, 0, -2}, {1, 0, -2}, {0, -1, 0}, {0, 1, 0}}};
   EXPECT_EQ(kind_of(q), ContactKind::crossing);
   EXPECT_EQ(first_contact(q)->time, TimeOfImpact::from_rational(1, 3));
-  q.x_t0[0][0] = q.x_t1[0][0] = 0;  // the end of the first passes
+  q.x_t0[0][0] = q.x_t1[0][0] = 0;  // an end of the first passes
   EXPECT_EQ(kind_of(q), ContactKind::touching);
 }
 
@@ -170,7 +171,7 @@ TEST(FirstContact, DoubleRootTouches) {
   EXPECT_EQ(time_of(q), 0.5);
 }
 
-/// A root of 2 t^2 = 1, from coordinates that show nothing of it.
+/// A root of 2 t^2 = 1, from coordinates that do not reveal it.
 TEST(FirstContact, IrrationalTimes) {
   VertexEdge2 q;
   q.x_t0 = {{{0, 0}, {-1, -1}, {1, -1}}};

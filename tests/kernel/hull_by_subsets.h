@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two simplices with small integer coordinates meet? By brute force: they do iff 0 is in the hull of all differences
-// of their corners, and then (Caratheodory) it is a convex combination of at most four affinely independent ones.
-//
-// What this does not do: coordinates above 1000 overflow.
+// Decides by brute force whether two simplices with small integer coordinates meet. They do iff 0 is in the hull of all
+// differences of their corners. Then 0 is a convex combination of at most four affinely independent ones
+// (Caratheodory). Coordinates above 1000 overflow.
 #pragma once
 
 #include <array>

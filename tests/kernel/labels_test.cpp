@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Published queries with known truth: every label, and how far down the stages the queries of each file get. The
-// ceilings keep a silent loss of speed from passing as long as every answer stays right.
+// Tests published queries with known answers: every label, and the share of each file's queries that reach the slower
+// stages. The ceilings catch a loss of speed that leaves all answers right.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,14 +19,14 @@ bool meet_record(const QueryRecord& record, StageCounters& counters) {
   return meet(Query<Pair, 3>{record.x_t0, record.x_t1}, &counters);
 }
 
-/// In per cent of a file's queries: how many may go beyond double, beyond fixed width, and to GMP.
+/// The shares of a file's queries, in per cent, that may go beyond double, beyond fixed width, and to GMP.
 struct Ceilings {
   double exact = 0;
   double interval = 0;
   double gmp = 0;
 };
 
-/// Files that are not named here may not leave double at all.
+/// Queries of other files must all be decided in double.
 const std::map<std::string, Ceilings> ceilings = {
     {"cloth-funnel-edge-edge.csv", {15, 0, 0}},
     {"cloth-funnel-vertex-face.csv", {13, 0, 0}},
@@ -58,7 +58,7 @@ bool meet_any(QueryKind kind, const QueryRecord& record, StageCounters& counters
                                         : meet_record<FeaturePair::edge_edge>(record, counters);
 }
 
-/// Queries that were once answered wrongly, as small as they could be made.
+/// Queries that were once answered wrongly, minimised.
 TEST(Labels, QueriesOnceAnsweredWrongly) {
   std::size_t files = 0;
   for (const auto& entry :

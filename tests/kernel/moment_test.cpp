@@ -79,7 +79,7 @@ TEST(Moment, TimesOfAnySizeAreRight) {
   EXPECT_EQ(coarse.upper(), next);
 }
 
-/// Of two doubles that enclose it, and of times of impact in the same piece, a moment tells the order.
+/// A moment compares correctly with the doubles that enclose it, and with other times of impact in the same piece.
 TEST(Moment, OrderIsThatOfTheTimes) {
   Random random(5);
   for (int i = 0; i < 500; ++i) {

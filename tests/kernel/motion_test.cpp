@@ -25,7 +25,7 @@ void expect_equal(const MotionQuery<Pair, Dim>& motion, const Query<Pair, Dim>& 
   ASSERT_EQ(answer->time, expected->time) << "query " << i;
 }
 
-/// Among the queries are both answers.
+/// Compares motions with their queries, and expects both answers to occur.
 template <class Query>
 void compare(std::uint64_t seed, int count, std::initializer_list<Spread> spreads, const auto& motion) {
   Random random(seed);
@@ -59,7 +59,7 @@ TYPED_TEST(Motion, TimeMayBeAnything) {
                      });
 }
 
-/// Thirds, sixths and so on of the paths' lengths, which no double is.
+/// The step is a third, a sixth, ... of longer paths, so that its fractions of them are not doubles.
 TYPED_TEST(Motion, APieceOfLongerPathsIsTheQuery) {
   compare<TypeParam>(3, 600, {Spread::tiny_integers, Spread::integers},
                      [](const auto& query, Random& random) { return prolonged(query, random, 5); });
@@ -67,7 +67,7 @@ TYPED_TEST(Motion, APieceOfLongerPathsIsTheQuery) {
 
 // --- at the border of two pieces
 
-/// A vertex over (or under) the face of a triangle around the origin, at the given heights at the times -1, 0 and 2.
+/// A vertex above (or below) a face around the origin, at the given heights at the times -1, 0 and 2.
 struct Border {
   VertexFace3 before, after;
   ContactKind kind() const { return kind_at_border(motion_over(before, -1, 0), motion_over(after, 0, 2)); }
@@ -113,7 +113,7 @@ TEST(MotionBorder, EdgesCrossTouchOrStay) {
   EXPECT_EQ(kind_at_border(motion_over(before, 0, 1), motion_over(after, 1, 2)), ContactKind::persistent);
 }
 
-/// The second edge turns into the plane of the first while it slides onto it: the determinant is -2 (1 - s)^2 before.
+/// The second edge turns into the plane of the first and slides onto it; until then the determinant is -2 (1 - s)^2.
 TEST(MotionBorder, TheFirstDerivativeThatIsNotZeroTellsTheSign) {
   EdgeEdge3 before, after;
   before.x_t0 = {{{-1, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 2, 1}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motions of which a step is known as a query.
+// Builds motions that contain a known query as a step.
 #pragma once
 
 #include "kernel/motion.h"
@@ -8,7 +8,7 @@
 
 namespace noli::test {
 
-/// The query as a motion over [begin, end], all paths beginning and ending with it.
+/// The query as a motion over [begin, end]; all paths begin and end there.
 template <FeaturePair Pair, int Dim>
 MotionQuery<Pair, Dim> motion_over(const Query<Pair, Dim>& query, double begin, double end) {
   MotionQuery<Pair, Dim> motion{{}, begin, end};
@@ -16,7 +16,8 @@ MotionQuery<Pair, Dim> motion_over(const Query<Pair, Dim>& query, double begin, 
   return motion;
 }
 
-/// The same with each path prolonged by up to `most` steps of the same length at both ends. Precondition: exact.
+/// The same, with each path prolonged at both ends by up to `most` steps of the same length. Precondition: the longer
+/// paths are exact in double.
 template <FeaturePair Pair, int Dim>
 MotionQuery<Pair, Dim> prolonged(const Query<Pair, Dim>& query, Random& random, int most) {
   MotionQuery<Pair, Dim> motion = motion_over(query, 0, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A query of the kernel as the oracle takes it.
+// Converts a query of the kernel to the oracle's input.
 #pragma once
 
 #include <noli/query.h>

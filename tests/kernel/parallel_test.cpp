@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::array thread_counts = {1, 2, 5, 0};
 
-/// Work of uneven length whose result depends on the order of its own additions, and on nothing else.
+/// Work of uneven length whose result depends only on the order of its own additions.
 double uneven_sum(std::size_t i) {
   double sum = 0;
   for (std::size_t k = 1; k <= 1 + (i * 37) % 500; ++k) sum += 1.0 / static_cast<double>(k + i);
@@ -69,8 +69,8 @@ TEST_P(EachBackend, GivesTheBytesOfASerialLoop) {
   }
 }
 
-/// Holds every task until `threads` of them are inside at once (or a second has passed), and says how many threads came
-/// by.
+/// Holds every task until `threads` of them run at once (or a second has passed), and returns the number of threads
+/// seen.
 std::size_t threads_seen(const ParallelBackend& backend, int threads) {
   std::mutex mutex;
   std::set<std::thread::id> seen;

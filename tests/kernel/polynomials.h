@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polynomials as tests write them down.
+// A short way to write polynomials in tests.
 #pragma once
 
 #include <utility>

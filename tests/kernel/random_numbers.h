@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random numbers that are the same everywhere: splitmix64 (Steele, Lea, Flood 2014).
+// Generates random numbers that are the same on every platform: splitmix64 (Steele, Lea, Flood 2014).
 #pragma once
 
 #include <cstdint>

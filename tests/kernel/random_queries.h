@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random queries in which degenerate features, coplanar motion, shared coordinates and contacts of all kinds are
-// frequent.
+// Generates random queries with frequent degenerate features, coplanar motion, shared coordinates and contacts of all
+// kinds.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ Query random_query(Random& random, Spread how) {
       for (double& x : p) x = random_coordinate(random, how);
     }
   }
-  // Points that stand still, coincide, or stay in a coordinate plane.
+  // Some points rest, coincide, or stay in a coordinate plane.
   if (random.below(4) == 0) {
     for (std::size_t i = 1; i < Query::size; ++i) q.x_t1[i] = q.x_t0[i];
   }

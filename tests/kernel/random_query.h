@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Queries for tests: at random, but such that coincidences of every kind are common.
+// Generates random queries in which coincidences of every kind are common.
 #pragma once
 
 #include <cmath>
@@ -43,7 +43,7 @@ inline double coordinate(Coordinates how, std::mt19937_64& random) {
   return 0;
 }
 
-/// A query; now and then a point does not move, or is another one.
+/// A random query; sometimes a point rests, or coincides with another one.
 template <FeaturePair Pair, int Dim>
 Query<Pair, Dim> any_query(Coordinates how, std::mt19937_64& random) {
   Query<Pair, Dim> q;

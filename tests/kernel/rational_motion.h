@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motions and certificates of kernel/failure_time.h over the rationals, as they are defined.
+// Evaluates motions and certificates of kernel/failure_time.h in rational arithmetic, by their definitions.
 #pragma once
 
 #include <gmpxx.h>

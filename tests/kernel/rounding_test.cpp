@@ -9,7 +9,7 @@
 namespace noli {
 namespace {
 
-/// Whether switching to upward rounding shows in a sum; under Valgrind it does not.
+/// Whether switching to upward rounding affects a sum; under Valgrind it does not.
 bool upward_rounding_works() {
   const int before = std::fegetround();
   std::fesetround(FE_UPWARD);

@@ -20,8 +20,8 @@ struct Simplex {
   std::vector<Vector> integers;
 };
 
-/// Small coordinates make degenerate simplices and touching ones frequent. Scaled by a power of two that does not
-/// change any answer.
+/// A random simplex. Small coordinates make degenerate and touching simplices frequent; the scale is a power of two,
+/// which does not change any answer.
 template <std::size_t N>
 Simplex<N> random_simplex(Random& random, int reach, bool flat, double scale) {
   Simplex<N> result;
@@ -49,7 +49,7 @@ const auto& unpacked(const std::array<P, N>& x) {
 
 constexpr std::array scales = {1.0, 0x1p-1070, 0x1p1010, 0x1p-537, 0x1.8p-3};
 
-/// Compares with brute force in space and in the plane, and sees to it that both answers occur often enough.
+/// Compares with brute force in space and in the plane, and expects both answers to occur often enough.
 template <std::size_t N, std::size_t M>
 void compare_with_hulls(std::uint64_t seed) {
   Random random(seed);
@@ -84,7 +84,7 @@ TEST(StaticPredicates, OrientationSeesOneUlp) {
   EXPECT_EQ(orientation(a, b, c, {0.3, 0.3, 0}), 0);
   EXPECT_EQ(orientation(a, b, c, {0.3, 0.3, -0x1p-1074}), -1);
   const double x = 1.0 / 3;
-  EXPECT_EQ(orientation(Point2{0, 0}, {1, x}, {3, 3 * x}), 1);  // in doubles 3 x is 1, exactly it is less
+  EXPECT_EQ(orientation(Point2{0, 0}, {1, x}, {3, 3 * x}), 1);  // 3 x rounds to 1, but is less
 }
 
 TEST(StaticPredicates, OrientationOfPointsNearlyOnALine) {

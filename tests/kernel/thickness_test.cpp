@@ -25,7 +25,7 @@ double random_eta(Random& random) {
   }
 }
 
-/// Against the oracle: the same answer and the same first double, both answers often enough.
+/// Compares the answer and the first double with the oracle, and expects both answers to occur often enough.
 template <class Query>
 void compare_with_oracle(std::uint64_t seed, int count) {
   Random random(seed);
@@ -54,7 +54,7 @@ TEST(Thickness, VertexVertexAsOracle) { compare_with_oracle<VertexVertex3>(4, 10
 TEST(Thickness, VertexEdgeInThePlaneAsOracle) { compare_with_oracle<VertexEdge2>(5, 1000); }
 TEST(Thickness, VertexVertexInThePlaneAsOracle) { compare_with_oracle<VertexVertex2>(6, 1000); }
 
-/// A piece of longer paths is decided as the query that has only the piece; both answers often enough.
+/// A piece of longer paths must give the same answer as the query of that piece; both answers occur often enough.
 template <class Query>
 void compare_pieces(std::uint64_t seed, int count) {
   Random random(seed);
@@ -100,8 +100,8 @@ TEST(Thickness, WithinZeroIsContact) {
 const VertexFace3 sinking{{{{0, 0, 2}, {-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}},
                           {{{0, 0, 1}, {-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}}};
 
-/// Of two edges that have an end in common, along a line: products of their coordinates overflow to both sides. Once
-/// such a sum, which is not a number, was forgotten at the next one. Found by fuzzing.
+/// Two collinear edges share an end, and products of their coordinates overflow to both sides. Their sum is NaN, which
+/// an earlier version lost in the next comparison. Found by fuzzing.
 TEST(Thickness, WhatOverflowsSeparatesNothing) {
   const double a = 0x1.54p+515, b = -0x1.bp+515, c = -0x1.8cp+515;
   const EdgeEdge3 query{{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {a, 0, 0}}}, {{{0, 0, 0}, {b, 0, 0}, {0, 0, 0}, {c, 0, 0}}}};
@@ -126,7 +126,7 @@ TEST(Thickness, ClosedAtTheEndOfTheStep) {
   EXPECT_GT(first_within(sinking, std::nextafter(2.0, 0.0))->lower(), 0);
 }
 
-/// All scales at once: the answer does not depend on a common power of two.
+/// The answer does not depend on a common power of two.
 TEST(Thickness, ScalesWithPowersOfTwo) {
   for (const int exponent : {-1000, -500, 0, 500, 1000}) {
     VertexFace3 scaled = sinking;

@@ -97,7 +97,7 @@ TEST(TimeOfImpact, PolynomialIsPrimitive) {
   EXPECT_EQ(TimeOfImpact::from_rational(4, 6).algebraic().polynomial().primitive(), polynomial({-2, 3}));
 }
 
-/// Against MPFR's own square root, for all roundings and many precisions.
+/// Compares with MPFR's own square root, for all roundings and many precisions.
 TEST(TimeOfImpact, MpfrIsCorrectlyRounded) {
   for (const mpfr_prec_t precision : {2, 3, 24, 53, 64, 113, 500, 4000}) {
     for (const mpfr_rnd_t rounding : roundings) {
@@ -112,7 +112,7 @@ TEST(TimeOfImpact, MpfrIsCorrectlyRounded) {
   }
 }
 
-/// Numbers that need every bit, and ties: the root is a dyadic number that the polynomial does not show.
+/// Numbers that need every bit, and ties: the root is dyadic, but the polynomial does not reveal it.
 TEST(TimeOfImpact, MpfrOfHiddenDyadicNumbers) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
@@ -134,7 +134,7 @@ TEST(TimeOfImpact, MpfrOfHiddenDyadicNumbers) {
   }
 }
 
-/// lower() as MPFR rounds down to 53 bits.
+/// lower() must equal MPFR's rounding down to 53 bits.
 TEST(TimeOfImpact, LowerIsMpfrRoundedDown) {
   Random random(3);
   int seen = 0;
@@ -153,8 +153,8 @@ TEST(TimeOfImpact, LowerIsMpfrRoundedDown) {
   EXPECT_GT(seen, 500);
 }
 
-/// lower() by its definition, by signs that are evaluated here. A root of even multiplicity shows no change of sign,
-/// nor do two roots between neighbouring doubles; those few are left to the comparison.
+/// Tests lower() by its definition, with signs evaluated here. Roots of even multiplicity, and two roots between
+/// neighbouring doubles, show no change of sign; those few are tested with compare().
 TEST(SlowTimeOfImpact, LowerOfAMillionRoots) {
   Random random(4);
   int seen = 0, shown_by_signs = 0;

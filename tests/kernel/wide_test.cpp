@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Integers of fixed width against GMP's.
+// Compares integers of fixed width with GMP's.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace noli {
 namespace {
 
-/// Limbs that are often all zeros or all ones, so that carries run far.
+/// A number whose limbs are often all zeros or all ones, so that carries propagate far.
 template <std::size_t N>
 Wide<N> any_wide(std::mt19937_64& random) {
   Wide<N> result;
@@ -35,7 +35,7 @@ mpz_class to_mpz(const Wide<N>& x) {
   return value;
 }
 
-/// What is left of a value in N limbs, read as two's complement.
+/// The value wrapped to N limbs, read as two's complement.
 template <std::size_t N>
 mpz_class wrapped(mpz_class value) {
   const mpz_class modulus = mpz_class(1) << (64 * N);

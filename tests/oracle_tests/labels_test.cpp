@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle on all published queries whose truth is known.
+// Runs the oracle on all published queries with known answers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle on motions that a reader can check by hand.
+// Runs the oracle on motions that a reader can check by hand.
 #include "oracle/oracle.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ struct Case {
   std::string name;
   Motion motion;
   Kind kind;
-  double time;  ///< of the first contact; not looked at when apart
+  double time;  ///< of the first contact; ignored when apart
 };
 
 constexpr Coordinates o = {0, 0, 0}, x1 = {1, 0, 0}, y1 = {0, 1, 0}, z1 = {0, 0, 1}, down = {0, 0, -1},
@@ -38,7 +38,7 @@ Motion vertices(int dimension, Coordinates v0, Coordinates v1, Coordinates w) {
   return {Pair::vertex_vertex, dimension, {v0, w, o, o}, {v1, w, o, o}};
 }
 
-/// A face that turns over around the vertex while a corner sweeps past: the orientation is 4 (t - 1/2)^2.
+/// A face turns over around the vertex while a corner sweeps past: the orientation is 4 (t - 1/2)^2.
 Motion tangential() {
   return {Pair::vertex_face, 3, {inner, {-1, 0, -1}, {1, 0, 1}, {0, 1, 1}}, {inner, {1, 0, 1}, {1, 0, -1}, {0, 1, -1}}};
 }
@@ -142,7 +142,7 @@ TEST(Within, ComesEarlierByTheDistance) {
 }
 
 TEST(Within, ReachesJustAsFarAsTheDistance) {
-  // Past the corner of a face, the middle of an edge and a vertex, at distance exactly 5 = |(3, 4)|.
+  // A vertex passes the corner of a face, the middle of an edge and a vertex, at distance exactly 5 = |(3, 4)|.
   const Motion corner = vertex_face({-3, -4, 1}, {-3, -4, -1}),
                line = vertex_edge(3, {0, 5, 1}, {0, 5, -1}, {-1, 0, 0}, x1);
   const Motion point = vertices(3, {3, 4, 1}, {3, 4, -1}, o);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle against brute force: at many times, whether the features meet there, decided by rational linear algebra
-// that shares nothing with it.
+// Compares the oracle with brute force: at many times, decides whether the features meet by rational linear algebra,
+// which shares no code with the oracle.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using Rational = mpq_class;
 using Row = std::vector<Rational>;
 
-/// Solves sum w_i column_i = right for independent columns; nothing if they are dependent or there is no solution.
+/// Solves sum w_i column_i = right for independent columns; nullopt if they are dependent or there is no solution.
 std::optional<Row> solve(std::vector<Row> rows) {
   const std::size_t unknowns = rows[0].size() - 1;
   for (std::size_t column = 0; column < unknowns; ++column) {
@@ -41,7 +41,7 @@ std::optional<Row> solve(std::vector<Row> rows) {
   return w;
 }
 
-/// Whether some of the points, affinely independent, have 0 in their hull (Caratheodory).
+/// Whether some affinely independent points have 0 in their hull (Caratheodory).
 bool hull_holds_zero(const std::vector<Row>& points) {
   for (unsigned subset = 1; subset < 1U << points.size(); ++subset) {
     if (std::popcount(subset) > 4) continue;
@@ -85,8 +85,7 @@ Motion random_motion(Pair pair, int dimension, std::mt19937_64& random) {
   return motion;
 }
 
-/// No sample before the first time meets; the first time does, where it is one of the samples; a kind that lasts meets
-/// right after.
+/// Expects no contact at samples before the first time, and contact at the first time if it is a sample.
 void check(const Motion& motion, const Answer& answer) {
   constexpr long steps = 60;
   for (long k = 0; k <= steps; ++k) {
@@ -97,7 +96,7 @@ void check(const Motion& motion, const Answer& answer) {
       continue;
     }
     const Polynomial sample({Integer(-k), Integer(steps)});
-    const int side = answer.time->sign_of(sample);  // of first time - t
+    const int side = answer.time->sign_of(sample);  // sign of first time - t
     EXPECT_FALSE(meets && side > 0) << "before the first time: " << k;
     EXPECT_FALSE(!meets && side == 0) << "at the first time: " << k;
   }

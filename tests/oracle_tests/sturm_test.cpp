@@ -51,7 +51,7 @@ TEST(Sturm, FindsEveryRootOfTheUnitIntervalOnce) {
   EXPECT_EQ(Time::roots_of(polynomial({1, 0, 1})).size(), 0U);
   EXPECT_EQ(Time::roots_of(root_at(1, 3) * root_at(1, 3) * root_at(2, 3)).size(), 2U);
   EXPECT_EQ(Time::roots_of(polynomial({5})).size(), 0U);
-  // Two roots 2^-40 from each other, and one next to 0.
+  // Two roots 2^-40 apart, and one next to 0.
   EXPECT_EQ(Time::roots_of(root_at(1, 3) * polynomial({-(Integer(1) << 40) - 3, 3 * (Integer(1) << 40)})).size(), 2U);
   EXPECT_EQ(Time::roots_of(root_at(0, 1) * polynomial({-1, Integer(1) << 200})).size(), 2U);
 }
@@ -78,7 +78,7 @@ TEST(Times, SignsAtAndAfterARoot) {
   EXPECT_TRUE(t.changes_sign(half_squared * half_squared * half_squared));
   EXPECT_FALSE(t.changes_sign(root_at(1, 2)));
   EXPECT_FALSE(t.changes_sign(Polynomial()));
-  // So near that no bound on the interval tells: the Sturm sequence has to.
+  // So close that no bound on the interval decides; the Sturm sequence must.
   const Polynomial near = polynomial({-(Integer(1) << 200), 0, 2 * (Integer(1) << 200) + 1});
   EXPECT_EQ(t.sign_of(near), 1);
 }

@@ -35,7 +35,7 @@ std::set<Edge> edges_of(const Cell& cell) {
 
 bool has(const Edge& e, VertexId v) { return e.first == v || e.second == v; }
 
-/// Which cells have each vertex and each edge.
+/// The cells that contain each vertex and each edge.
 struct Incidences {
   std::map<VertexId, std::set<std::size_t>> of_vertex;
   std::map<Edge, std::set<std::size_t>> of_edge;
@@ -49,7 +49,7 @@ struct Incidences {
   }
 };
 
-/// Whether there are different cells, one from each set.
+/// Whether the sets contain two different cells, one in each.
 bool two_different(const std::set<std::size_t>& a, const std::set<std::size_t>& b) {
   return a.size() > 1 || b.size() > 1 || *a.begin() != *b.begin();
 }
@@ -85,7 +85,7 @@ void add_pairs_2d(const Mesh& mesh, bool strict, std::map<PairKey, int>& pairs) 
   }
 }
 
-/// A vertex, edge or face of a cell: 1, 2 or 3 vertices, some of them perhaps the same.
+/// A vertex, edge or face of a cell: 1, 2 or 3 vertices, perhaps with repetitions.
 using Simplex = std::vector<VertexId>;
 
 std::vector<Simplex> features_of(const Cell& cell) {
@@ -107,7 +107,7 @@ bool disjoint(const Simplex& x, const Simplex& y) {
 
 using SimplexPairs = std::vector<std::pair<Simplex, Simplex>>;
 
-/// All pairs of a feature of a and one of b without a common vertex.
+/// All pairs of a feature of a and a feature of b without a common vertex.
 SimplexPairs disjoint_pairs(const Cell& a, const Cell& b) {
   SimplexPairs pairs;
   for (const Simplex& x : features_of(a)) {
@@ -118,7 +118,8 @@ SimplexPairs disjoint_pairs(const Cell& a, const Cell& b) {
   return pairs;
 }
 
-/// Whether a pair of features of more points than x and y together has x in its first and y in its second.
+/// Whether a pair of features with more points than x and y together contains x in its first feature and y in its
+/// second.
 bool stood_for(const Simplex& x, const Simplex& y, const SimplexPairs& pairs) {
   return std::any_of(pairs.begin(), pairs.end(), [&](const auto& p) {
     return p.first.size() + p.second.size() > x.size() + y.size() && p.first.size() >= x.size() &&
@@ -126,7 +127,7 @@ bool stood_for(const Simplex& x, const Simplex& y, const SimplexPairs& pairs) {
   });
 }
 
-/// Those of a vertex and an edge (in 3D) or of two vertices for which no larger pair of the same cells stands.
+/// Adds vertex-edge pairs (in 3D) and vertex-vertex pairs that no larger pair of the same cells covers.
 void add_small_pairs(const Cell& a, const Cell& b, int dimension, std::set<PairKey>& small) {
   const SimplexPairs pairs = disjoint_pairs(a, b);
   for (const auto& [x, y] : pairs) {
@@ -145,13 +146,13 @@ void add_small_pairs(const Mesh& mesh, int dimension, std::map<PairKey, int>& pa
   for (const PairKey& key : small) ++pairs[key];
 }
 
-/// The features of one cell.
+/// Adds the pairs of features within one cell.
 void add_strict(const Mesh& mesh, int dimension, std::map<PairKey, int>& pairs) {
   std::set<Cell> seen;
   for (Cell cell : cells_of(mesh)) {
     std::sort(cell.begin(), cell.end());
     if (!seen.insert(cell).second) continue;
-    // What is a pair of two cells already is no other pair.
+    // A pair that already occurs between two cells is not counted again.
     if (cell.size() == 2 && cell[0] != cell[1]) pairs[vertex_vertex(cell[0], cell[1])] = 1;
     for (const VertexId v : std::set(cell.begin(), cell.end())) {
       for (const Edge& e : edges_of(cell)) {
@@ -161,7 +162,7 @@ void add_strict(const Mesh& mesh, int dimension, std::map<PairKey, int>& pairs) 
   }
 }
 
-/// The part of a cell that the bits of `mask` stand for.
+/// The vertices of a cell selected by the bits of `mask`.
 Cell part_of(const Cell& cell, unsigned mask) {
   Cell part;
   for (std::size_t i = 0; i < cell.size(); ++i) {
@@ -170,7 +171,7 @@ Cell part_of(const Cell& cell, unsigned mask) {
   return part;
 }
 
-/// What is left of b without the vertices of a.
+/// The vertices of b that are not in a.
 Cell without(const Cell& b, const Cell& a) {
   Cell rest;
   std::copy_if(b.begin(), b.end(), std::back_inserter(rest),
@@ -187,7 +188,7 @@ std::vector<Position> at_begin(const Step& step, int dimension, const Cell& part
   return points;
 }
 
-/// Each part of a against the largest part of b that is vertex-disjoint from it: smaller ones are in its hull.
+/// Tests each part of a against the largest vertex-disjoint part of b, whose hull contains the smaller ones.
 bool cells_meet(const Step& step, int dimension, const Cell& a, const Cell& b) {
   for (unsigned i = 1; i < 1U << a.size(); ++i) {
     const Cell p = part_of(a, i), q = without(b, p);
@@ -196,8 +197,8 @@ bool cells_meet(const Step& step, int dimension, const Cell& a, const Cell& b) {
   return false;
 }
 
-/// The pair as the oracle for contact takes it; nothing for an edge or face against a face, and in 2D two edges: these
-/// meet at the beginning, or first where smaller features of theirs do.
+/// The pair as input for the contact oracle. Nullopt for an edge or face against a face, and for two edges in 2D: these
+/// meet at the beginning, or first where their smaller features meet.
 std::optional<PairKey> decidable_key(const Simplex& x, const Simplex& y, int dimension) {
   if (x.size() > y.size()) return decidable_key(y, x, dimension);
   if (x.size() == 1 && y.size() == 1) return vertex_vertex(x[0], y[0]);

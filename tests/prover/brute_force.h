@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The verifier's answer by its definition: all pairs of features, all pairs of cells, one by one, in rational
-// arithmetic.
+// Computes the verifier's answer by its definition: all pairs of features and all pairs of cells, one by one, in
+// rational arithmetic.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace noli::testing {
 
-/// A pair of features, as FeatureContact has it.
+/// A pair of features, as in FeatureContact.
 using PairKey = std::pair<FeaturePair, std::array<VertexId, 4>>;
 
 PairKey key_of(const FeatureContact& contact);
@@ -24,23 +24,23 @@ PairKey key_of(const FeatureContact& contact);
 /// ascending.
 PairKey canonical_key(FeaturePair pair, std::array<VertexId, 4> vertices);
 
-/// All pairs of features that the verifier has to decide, and how often each counts (a face that is listed twice counts
-/// twice).
+/// All pairs of features that the verifier must decide, and how often each counts. A face that is listed twice counts
+/// twice.
 std::map<PairKey, int> all_pairs(const Mesh& mesh, int dimension, bool strict);
 
-/// What the oracle says about one of them.
+/// The oracle's answer for a pair.
 oracle::Answer decide(const PairKey& key, const Step& step, int dimension);
 
 struct BruteForce {
   std::map<PairKey, int> contacts;
   std::set<std::pair<std::uint32_t, std::uint32_t>> initial;
   std::optional<oracle::Time> first_time;
-  std::set<PairKey> first;  ///< those that meet at the first time
+  std::set<PairKey> first;  ///< the pairs that meet at the first time
 };
 
 BruteForce brute_force(const Step& step, int dimension, bool strict = false);
 
-/// The claim itself: whether any two features of two different cells that share no vertex meet during the step.
+/// The negated claim: whether any two features of two different cells that share no vertex meet during the step.
 bool ever_meet(const Step& step, int dimension);
 
 /// Whether the vertex-disjoint parts of two cells meet at t = 0.

@@ -22,7 +22,7 @@ Group leaf_at(std::size_t i) { return {0, static_cast<std::uint32_t>(i), 1}; }
 
 std::uint32_t chart_of_leaf(const Forest& forest, std::size_t leaf) { return forest.charts().chart_of(leaf_at(leaf)); }
 
-/// The share of the leaves that have a chart.
+/// The share of leaves that have a chart.
 double covered(const Forest& forest) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < forest.leaves().size(); ++i) count += chart_of_leaf(forest, i) != Charts::none ? 1 : 0;
@@ -35,7 +35,7 @@ bool share_vertex(const Leaf& a, const Leaf& b) {
   });
 }
 
-/// n by n squares with a hole of a third of that in the middle.
+/// n by n squares with a hole in the middle, a third as wide.
 Surface holed(std::uint32_t n) {
   Surface surface = grid(n, n);
   const std::uint32_t low = n / 3, high = 2 * n / 3;
@@ -105,7 +105,7 @@ TEST(Charts, OfGroupsAreThoseOfTheirLeaves) {
   }
 }
 
-/// Unless the border is that of the rectangle.
+/// Except from the straight border of the rectangle.
 TEST(Charts, KeepAwayFromBorders) {
   const Surface straight = holed(18);
   Surface surface = straight;
@@ -143,7 +143,7 @@ TEST(Charts, NeedAnEdgeToHaveTwoFaces) {
   EXPECT_LT(covered(forest_of(surface)), before / 2);
 }
 
-/// Two layers over one another that belong to one part: groups of both have no chart.
+/// Two layers above each other belong to one part: groups with faces of both have no chart.
 TEST(Charts, NeedOneLayer) {
   Surface surface = holed(18);
   const Surface other = surface;

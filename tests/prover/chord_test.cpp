@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// World lines stay within the radius of their chords: in rational arithmetic.
+// Tests in rational arithmetic that world lines stay within the radius of their chords.
 #include "proofs/prover/windows/chord.h"
 
 #include <gmpxx.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Rational = mpq_class;
 
-/// The world line at a time, exactly.
+/// The exact position of the world line at a time.
 Rational place_at(const WorldLine& line, double time, std::size_t k) {
   const std::size_t i = line.segment_after(time);
   const Rational t0 = line.t[i], t1 = line.t[i + 1], x0 = line.x[i][k], x1 = line.x[i + 1][k];
@@ -24,11 +24,11 @@ Rational place_at(const WorldLine& line, double time, std::size_t k) {
 }
 
 struct Deviation {
-  Rational most = 0;      ///< of the line from the chord
+  Rational most = 0;      ///< largest distance of the line from the chord
   Rational least_radius;  ///< half the width of the strip along the straight line between the ends
 };
 
-/// At all breakpoints within [begin, end] and at both ends; in between it is linear.
+/// The deviation at both ends of [begin, end] and at all breakpoints in it; in between it is linear.
 Deviation deviation(const WorldLine& line, const Chord<3>& chord, double begin, double end, std::size_t k) {
   Deviation result;
   Rational low = 0, high = 0;
@@ -98,7 +98,7 @@ TEST_P(ChordOf, IsNoFartherThanItsRadius) {
       ASSERT_TRUE(std::isfinite(chord.radius[k]));
       const Deviation exact = deviation(line, chord, begin, end, k);
       ASSERT_LE(exact.most, Rational(chord.radius[k]));
-      // Nor is the radius much larger than it has to be: 2^-46 of the values in play.
+      // The radius is hardly larger than necessary: by at most 2^-43 of the scale.
       const Rational scale = Rational(GetParam().place) + GetParam().offset;
       ASSERT_LE(Rational(chord.radius[k]), exact.least_radius + scale / (1L << 43) + Rational(0x1p-1020));
     }

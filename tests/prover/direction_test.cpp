@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The floating-point test of a direction, and the search for one, against rational arithmetic.
+// Compares the floating-point test of a direction, and the search for one, with rational arithmetic.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace noli::testing {
 namespace {
 
-/// A face. Its vertices are kept until the program ends.
+/// A face whose vertices are kept until the program ends.
 template <int Dim>
 StepCell<Dim> step_cell(const std::array<Position, 3>& x_t0, const std::array<Position, 3>& x_t1) {
   static std::deque<std::array<MovingVertex<Dim>, 3>> kept;
@@ -36,7 +36,7 @@ PartPair<Dim> whole(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
   return pair_of(a, 7, b, 7, 0);
 }
 
-/// n.(a - b) > 0 at time s, for all corners; exact.
+/// Whether n.(a - b) > 0 at time s for all corners, exactly.
 template <int Dim>
 bool truly_above(const MovingCell<Dim>& a, const MovingCell<Dim>& b, const Direction<Dim>& n, double s) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -107,7 +107,7 @@ TEST_P(Separation, ThatIsFoundHolds) {
   EXPECT_EQ(found > 0, squares_fit);
 }
 
-/// Two horizontal triangles that touch, but for `gap`.
+/// Two horizontal triangles, `gap` apart.
 std::pair<MovingCell<3>, MovingCell<3>> stacked(double gap) {
   const std::array<Position, 3> low = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
   std::array<Position, 3> high = low;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions with as many bits as a proof has room for.
+// Tests directions with as many bits as a proof can hold.
 #include "proofs/prover/cells/exact_direction.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace noli {
 namespace {
 
-/// (a, b) with a = 2^bits, and b a power of 3 of that size; and its opposite, except for one unit. A direction that
-/// separates both is across (a, b), to as many bits.
+/// (a, b) with a = 2^bits and b a power of 3 of that size, and its opposite up to one unit. A direction that separates
+/// both is orthogonal to (a, b), to that many bits.
 std::vector<IntegerVector> almost_opposite(std::size_t bits) {
   const Integer a = Integer(1) << bits;
   Integer b;
@@ -31,7 +31,7 @@ TEST(ExactDirection, HasAsManyBitsAsItTakes) {
   }
 }
 
-/// Without the limit, a writer would write what checkers refuse.
+/// Without the limit, a writer would write proofs that checkers refuse.
 TEST(ExactDirection, IsNotGivenWhereAProofHasNoRoomForIt) {
   EXPECT_FALSE(exact_direction(almost_opposite(8600), Integer(0)));
 }

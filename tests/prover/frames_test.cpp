@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of frames of real simulations; skipped, visibly, where they are not there.
+// Verifies pairs of frames of real simulations; visibly skipped where the files are missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ constexpr Pair pairs[] = {
     {"rod_twist_clean", "rod-twist-clean/0.ply", "rod-twist-clean/1.ply", 0, 0, 1000},
 };
 
-/// Nothing when the files are not there.
+/// Reads the pair; nullopt if the files are missing.
 std::optional<Step> read(const Pair& pair) {
   const auto t0 = test::real_data(std::string("frames/") + pair.t0),
              t1 = test::real_data(std::string("frames/") + pair.t1);
@@ -52,7 +52,7 @@ TEST_P(Frames, HaveTheKnownContacts) {
   EXPECT_LT(result.cell_pairs, GetParam().most_cell_pairs);  // directions settle nearly all
 }
 
-/// Boxes of the faces at t = 0, sorted by their least x.
+/// The box of a face at t = 0; boxes are sorted by their least x.
 struct Box {
   Position low, high;
   std::uint32_t face;

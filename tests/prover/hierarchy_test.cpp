@@ -41,7 +41,7 @@ TEST(Hierarchy, ChildrenShareOutTheLeavesAndTheNodes) {
   EXPECT_EQ(g.right().node, 11u + 2 * g.left().count - 1);
 }
 
-/// Whether all corners of the leaves of p are above those of q along n, at one end.
+/// Whether all corners of the leaves of p are above those of q along n, at one end of the step.
 bool above(const Step& step, const std::vector<Position>& x, const Hierarchy& h, Group p, Group q,
            const std::array<double, 3>& n) {
   const auto axis =
@@ -56,7 +56,7 @@ bool above(const Step& step, const std::vector<Position>& x, const Hierarchy& h,
   return extreme(p, n[axis]) > -extreme(q, -n[axis]);
 }
 
-/// Goes down the tree and counts the pairs that were separated and the claims that do not hold.
+/// Descends the tree and counts separated pairs, open pairs and wrong claims.
 void check_pairs(const Step& step, const Hierarchy& h, Group p, Group q, int& separated, int& open, int& wrong) {
   EXPECT_EQ(axis_separates(h.box_of(p.node), h.box_of(q.node)),
             separating_axes(h.box_of(p.node), h.box_of(q.node)) != 0);
@@ -90,7 +90,7 @@ void expect_true_axes(const Step& step) {
 
 TEST(Hierarchy, WhatItsBoxesSeparateIsSeparate) { expect_true_axes(two_sheets(3, 12, 0.5)); }
 
-/// The same scene, scaled and moved: rounding to float must not make an order of what has none.
+/// The same scene, scaled and moved: rounding to float must not separate what is not separate.
 Step transformed(Step step, double scale, double offset) {
   for (auto* x : {&step.x_t0, &step.x_t1}) {
     for (Position& p : *x) {

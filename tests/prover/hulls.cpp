@@ -24,7 +24,7 @@ Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] 
 
 bool on_segment(const Vector& a, const Vector& b) { return is_zero(cross(a, b)) && dot(a, b) <= 0; }
 
-/// Whether the origin is in a triangle that is no segment.
+/// Whether the origin is in a triangle that is not degenerate.
 bool on_triangle(const Vector& a, const Vector& b, const Vector& c) {
   const Vector n = cross(difference(b, a), difference(c, a));
   if (is_zero(n) || dot(n, a) != 0) return false;
@@ -33,7 +33,7 @@ bool on_triangle(const Vector& a, const Vector& b, const Vector& c) {
 
 int side(const Vector& a, const Vector& b, const Vector& c) { return sgn(dot(a, cross(b, c))); }
 
-/// Whether the origin is inside a tetrahedron, not on its surface.
+/// Whether the origin is in the interior of a tetrahedron.
 bool in_tetrahedron(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
   const int s = side(a, b, c);
   return s != 0 && side(a, c, d) == s && side(a, d, b) == s && side(b, d, c) == s;
@@ -55,7 +55,7 @@ bool origin_in_hull(const std::vector<Vector>& d) {
   return false;
 }
 
-/// Whether on some axis all of p are above all of q.
+/// Whether all of p are above all of q along some axis.
 bool above_on_an_axis(const std::vector<Position>& p, const std::vector<Position>& q) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto less = [k](const Position& a, const Position& b) { return a[k] < b[k]; };

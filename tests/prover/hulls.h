@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do the hulls of two small sets of points meet? In rational arithmetic, by Caratheodory's theorem.
+// Decides in rational arithmetic whether the hulls of two small sets of points meet.
 //
-// They do iff the origin is in the hull of the differences of their points, and then it is in the hull of at most four
-// of these that are affinely independent. All such subsets are tried.
+// They do iff the origin is in the hull of the differences of their points. By Caratheodory's theorem, it is then in
+// the hull of at most four affinely independent differences. All such subsets are tried.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,7 @@ Sheets sheets_of(const Surface& surface, int dimension = 3, std::size_t least = 
   return find_sheets(surface.mesh, surface.x, dimension, least);
 }
 
-/// The vertices of a face, then of those of another that the first has not.
+/// The vertices of face b that are not in face a.
 std::vector<VertexId> without(const std::array<VertexId, 3>& b, const std::array<VertexId, 3>& a) {
   std::vector<VertexId> rest;
   for (const VertexId v : b) {
@@ -24,7 +24,7 @@ std::vector<VertexId> without(const std::array<VertexId, 3>& b, const std::array
   return rest;
 }
 
-/// Whether what two faces do not share is apart in the layout, exactly.
+/// Whether face a and the part of face b without a's vertices are apart in the layout, exactly.
 bool disjoint(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b, const std::vector<Point2>& r) {
   const Triangle2 whole = {r[a[0]], r[a[1]], r[a[2]]};
   const auto rest = without(b, a);
@@ -33,7 +33,7 @@ bool disjoint(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b
   return rest.empty() || !intersects(whole, Triangle2{r[b[0]], r[b[1]], r[b[2]]});
 }
 
-/// By the definition: no two faces meet in the layout but in what they share.
+/// Tests the definition: two faces meet in the layout only in what they share.
 bool injective(const Surface& surface, const Sheets& sheets) {
   for (const auto& faces : sheets.faces) {
     for (const auto i : faces) {
@@ -133,12 +133,12 @@ TEST(Layout, TwoPartsJoinedAtAVertexAreNoSheet) {
   Surface surface = grid(3, 3);
   append(surface, grid(3, 3), {3, 3, 0});
   for (auto& face : surface.mesh.faces) {
-    for (VertexId& v : face) v = v == 16 ? 15 : v;  // the corner (3, 3) of both
+    for (VertexId& v : face) v = v == 16 ? 15 : v;  // both corners at (3, 3)
   }
   EXPECT_TRUE(sheets_of(surface).faces.empty());
 }
 
-/// Two different vertices at one place: a slit whose two sides touch.
+/// Two vertices at one position form a slit whose sides touch.
 TEST(Layout, ASlitSheetIsNone) {
   Surface surface = grid(6, 6);
   const VertexId middle = 3 * 7 + 3;
@@ -153,7 +153,7 @@ TEST(Layout, ASlitSheetIsNone) {
   EXPECT_TRUE(sheets_of(surface).faces.empty());
 }
 
-/// Whatever is called a sheet is one.
+/// Everything reported as a sheet is one.
 TEST(Layout, OfRandomSurfacesIsInjectiveOrNone) {
   Random random(4);
   int sheets = 0, none = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of features that no larger pair of the same two cells stands for.
+// Tests pairs of features that no larger pair of the same two cells covers.
 #include "proofs/prover/cells/leftover.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace {
 
 using Counts = std::array<std::uint64_t, 4>;
 
-/// Frames and a window have to say the same; `initial`: how many pairs of cells meet at the beginning.
+/// Expects the same counts for frames and for a window. `initial`: the number of pairs of cells that meet at the
+/// beginning.
 void expect_counts(const Step& step, const Counts& counts, std::uint64_t initial, bool strict = false,
                    int dimension = 3) {
   VerifyOptions options;
@@ -30,7 +31,7 @@ void expect_counts(const Step& step, const Counts& counts, std::uint64_t initial
   EXPECT_EQ(window.initial_intersections, initial);
 }
 
-/// Edges ab and ac; c goes through ab (height 0) in the middle of the step, or stops above it.
+/// Edges ab and ac; c passes through ab (height 0) in the middle of the step, or stops above it.
 Step bent_rod(double height_at_t1) {
   Step step;
   const VertexId a = step.vertex({0, 0, 0}), b = step.vertex({4, 0, 0});
@@ -53,7 +54,7 @@ TEST(Leftover, AnEndOfALooseEdgeMeetsTheNextLooseEdge) {
 
 TEST(Leftover, AtTheBeginningItIsAnIntersectionToo) {
   Step step = bent_rod(0);
-  step.x_t0 = step.x_t1;  // as --static has it
+  step.x_t0 = step.x_t1;  // like --static
   expect_counts(step, {0, 0, 1, 0}, 1);
   step = bent_rod(1);
   expect_counts(step, {0, 0, 0, 0}, 0);
@@ -63,7 +64,7 @@ TEST(Leftover, CountsOncePerPairOfFeatures) {
   Step step = bent_rod(-1);
   step.mesh.edges = {{0, 1}, {2, 0}, {1, 0}, {0, 2}};
   expect_counts(step, {0, 0, 1, 0}, 0);
-  step.mesh.edges = {{0, 1}, {0, 2}, {1, 2}};  // c against ab is left over by ca, ab and by cb, ab
+  step.mesh.edges = {{0, 1}, {0, 2}, {1, 2}};  // both ca, ab and cb, ab leave c against ab over
   expect_counts(step, {0, 0, 1, 0}, 0);
   step.mesh.points = {2, 2};
   expect_counts(step, {0, 0, 1, 0}, 0);

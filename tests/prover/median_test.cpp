@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The median split, against sorting.
+// Compares the median split with sorting.
 #include "proofs/prover/median.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> sorted_cells(std::vector<Entry>::const_iterator first
   return cells;
 }
 
-/// The same entries are before the middle as if all had been sorted; likewise after it.
+/// Expects the same entries before the middle as after sorting, and the same behind it.
 void expect_split(std::vector<Entry> entries, std::ptrdiff_t middle, std::size_t axis) {
   std::vector<Entry> sorted = entries;
   std::sort(sorted.begin(), sorted.end(), [axis](const Entry& a, const Entry& b) { return comes_before(a, b, axis); });
@@ -36,7 +36,7 @@ void expect_split(std::vector<Entry> entries, std::ptrdiff_t middle, std::size_t
   EXPECT_EQ(sorted_cells(entries.begin() + middle, entries.end()), sorted_cells(sorted.begin() + middle, sorted.end()));
 }
 
-/// Entries whose places are f(i).
+/// Entries at positions f(i).
 template <class F>
 std::vector<Entry> entries_of(std::size_t count, const F& f) {
   std::vector<Entry> entries;
@@ -70,7 +70,7 @@ TEST(Median, SplitsWhatIsAlikeByCell) {
   expect_splits([](std::size_t i) { return i % 3; });
 }
 
-/// Large exactly where samples are taken from, so that the sample says nothing about the others.
+/// Values are large exactly where samples are taken, so that the sample is misleading.
 TEST(Median, SplitsWhereTheSampleMisleads) {
   for (const std::size_t count : {200u, 3000u}) {
     const std::size_t size = count > 512 ? 63 : 7;

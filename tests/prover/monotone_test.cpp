@@ -22,7 +22,7 @@ NearVertex near(const Position& x_t0, const Position& x_t1, float radius = 0) {
   return v;
 }
 
-/// The tangents of a face whose corners move from one set of places to another.
+/// The tangents of a face whose corners move between two sets of positions.
 TangentBox box_of(const LaidFace& face, const std::array<Position, 3>& from, const std::array<Position, 3>& to,
                   float radius = 0) {
   return tangents_of(face, near(from[0], to[0], radius), near(from[1], to[1], radius), near(from[2], to[2], radius));
@@ -59,7 +59,7 @@ TEST(Monotone, TheRestOfTheBoxCounts) {
   EXPECT_TRUE(is_monotone(merged(box_of(unit_face, flat, flat), box_of(unit_face, steep, steep)), 3));
 }
 
-/// Though each of two faces goes its way, what goes along one and then along the other may come back.
+/// Each of two faces may be monotone, but a path along one and then along the other may return.
 TEST(Monotone, WhatMixesTheAxesCounts) {
   TangentBox box = empty_tangents();
   for (const float shear : {0.9F, 3.0F}) {
@@ -89,8 +89,8 @@ TEST(Monotone, WhatIsNotKnownIsNot) {
   }
 }
 
-/// Tangents of positions anywhere within the radii and of any time are in the box (computed in double, which is finer
-/// than the box by far).
+/// The box contains the tangents for all positions within the radii and all times. They are computed in double, which
+/// is far more precise than the box.
 TEST(Monotone, TheBoxHoldsTheTangents) {
   Random random(9);
   for (int i = 0; i < 3000; ++i) {
@@ -125,8 +125,8 @@ TEST(Monotone, TheBoxHoldsTheTangents) {
   }
 }
 
-/// As the layout moves along d, faces move by d_u f_u + d_v f_v: a box of vectors, on one side of a plane through 0, so
-/// 0 is not in it.
+/// Along a direction d of the layout, faces move by d_u f_u + d_v f_v. These vectors form a box on one side of a plane
+/// through 0, so it does not contain 0.
 TEST(Monotone, NoDirectionOfTheLayoutIsLost) {
   Random random(10);
   int yes = 0, no = 0;

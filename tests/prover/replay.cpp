@@ -31,7 +31,7 @@ double take_sint(std::string_view& bytes) {
     if ((byte & 0x80) == 0) break;
   }
   const mpz_class value = coded % 2 == 0 ? mpz_class(coded / 2) : mpz_class(-(coded + 1) / 2);
-  return value.get_d();  // of a direction that doubles found
+  return value.get_d();  // the direction was found in doubles
 }
 
 }  // namespace

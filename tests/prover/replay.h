@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Judges the proof of a step between two frames: reads its tokens with a stack machine of its own (the rules are in
-// proofs/FORMAT.md, section 3) and checks each of them in rational arithmetic.
+// Judges the proof of a step between two frames. An independent stack machine reads its tokens by the rules of
+// proofs/FORMAT.md, section 3, and checks each in rational arithmetic.
 #pragma once
 
 #include <map>
@@ -17,18 +17,18 @@ namespace noli::testing {
 
 class Replay {
  public:
-  /// Judges all of it. `step` and `proof` need not outlive this.
+  /// Judges the whole proof. `step` and `proof` need not outlive this object.
   Replay(const Step& step, int dimension, bool strict, const StepProof& proof);
 
-  /// What was wrong, if anything.
+  /// The faults found; empty if the proof holds.
   const std::vector<std::string>& faults() const { return faults_; }
   std::size_t obligations_left() const { return stack_.size(); }
-  /// How many tokens of a kind there were: "halve", "left", "right", "parts", "one", "both", "drop", "empty", "axis",
-  /// "short" or "long".
+  /// The number of tokens of a kind: "halve", "left", "right", "parts", "one", "both", "drop", "empty", "axis", "short"
+  /// or "long".
   std::size_t count(const std::string& token) const { return counts_.contains(token) ? counts_.at(token) : 0; }
 
  private:
-  /// A run of leaves, and the vertices that were dropped from it (of a single leaf).
+  /// A range of leaves, and the vertices dropped from it (only for a single leaf).
   struct Part {
     std::size_t begin, count;
     std::set<VertexId> dropped;

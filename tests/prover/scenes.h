@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes that move, made by hand or by a written-out generator, for the tests of the verifier.
+// Builds moving meshes for the tests of the verifier, by hand or from a generator with fixed numbers.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ struct Step {
   Mesh mesh;
   std::vector<Position> x_t0, x_t1;
 
-  /// Adds a vertex that moves from one place to another; returns its id.
+  /// Adds a vertex that moves between two positions; returns its id.
   VertexId vertex(const Position& at_t0, const Position& at_t1);
-  /// Adds one that stays.
+  /// Adds a vertex that rests.
   VertexId vertex(const Position& x) { return vertex(x, x); }
   /// Adds a face with three vertices of its own, moved by `motion`.
   void face(const Position& a, const Position& b, const Position& c, const Position& motion = {});
 };
 
-/// SplitMix64 (Steele, Lea, Flood 2014), written out: the same numbers everywhere.
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every platform.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -37,13 +37,13 @@ class Random {
   std::uint64_t state_;
 };
 
-/// What random_soup makes.
+/// The size of a random soup.
 struct SoupSize {
   std::uint32_t vertices, faces, edges, points;
-  std::uint32_t span;  ///< coordinates are integers in [-span, span]: a small span makes every degeneracy there is
+  std::uint32_t span;  ///< coordinates are integers in [-span, span]; a small span produces every degeneracy
 };
 
-/// Cells whose corners are any of the vertices, also several times the same; in 2D the third coordinate is noise.
+/// Cells whose corners are random vertices, perhaps repeated; in 2D the third coordinate is noise.
 Step random_soup(std::uint64_t seed, const SoupSize& size, int dimension);
 
 /// Two rough sheets of n by n squares, a step apart, the upper one moved down by `fall` squares.

@@ -27,7 +27,7 @@ TEST(Sheet, FacesMustBeCounterclockwise) {
   EXPECT_FALSE(is_sheet(Faces{{0, 2, 1}}, square));
   EXPECT_FALSE(is_sheet(Faces{{0, 1, 2}, {0, 3, 2}}, square));
   EXPECT_FALSE(is_sheet(Faces{{0, 1, 2}}, Layout{{0, 0}, {1, 1}, {2, 2}}));
-  // A vertex pulled over the opposite edge: the border stays, one face is turned over.
+  // A vertex is pulled over the opposite edge: the border stays, but one face flips.
   const Faces fan = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   Layout layout = square;
   layout.push_back({0.5, 0.5});
@@ -44,7 +44,7 @@ TEST(Sheet, TheBorderMustBeConvex) {
   EXPECT_TRUE(is_sheet(faces, Layout{{0, 0}, {2, 1}, {2, 2}, {1, 2}}));
 }
 
-/// A fan of faces around vertex 0 that goes around it so many times, on a border of `n` vertices.
+/// A fan of faces that winds around vertex 0 several times, on a border of `n` vertices.
 struct Fan {
   Faces faces;
   Layout layout = {{0, 0}};
@@ -88,7 +88,7 @@ TEST(Sheet, PlacesMustBeFinite) {
   EXPECT_FALSE(is_sheet(Faces{{0, 1, 2}}, Layout{{0, 0}, {1, 0}, {NAN, 1}}));
 }
 
-/// Nearly straight is told from straight.
+/// Straight and nearly straight borders are distinguished.
 TEST(Sheet, ConvexityIsExact) {
   const Faces faces = {{0, 1, 3}, {1, 2, 3}};
   for (const double low : {-0x1p-60, 0.0, 0x1p-60}) {

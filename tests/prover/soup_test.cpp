@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random meshes of every degeneracy, against the definitions; and the proofs of those in which nothing touches, judged.
+// Compares random meshes of every degeneracy with the definitions, and judges the proofs of those where nothing
+// touches.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -96,7 +97,7 @@ TEST_P(Soup, IsAnsweredByTheDefinitions) {
   EXPECT_GT(pairs_apart, 0u);
 }
 
-/// What nobody may notice who asks for a proof too.
+/// Expects equal results: asking for a proof must not change them.
 void expect_same(const VerifyResult& a, const VerifyResult& b) {
   EXPECT_EQ(a.complete, b.complete);
   EXPECT_EQ(a.contacts, b.contacts);
@@ -153,7 +154,7 @@ TEST(SheetsInAStep, HaveAProofThatHolds) {
   EXPECT_GT(drops, 0u);
 }
 
-/// An edge that turns a quarter around another one, always a hair beside it: each direction holds for a short time.
+/// An edge turns a quarter around another one, always very close to it, so each direction holds only for a short time.
 TEST(PartsThatNoDirectionSeparates, HaveAProofThatHolds) {
   Step step;
   step.mesh.vertex_count = 4;

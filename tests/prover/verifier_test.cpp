@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small scenes made by hand, each with what the definitions say about it.
+// Tests small scenes made by hand, each with the answer that follows from the definitions.
 #include "proofs/prover/verifier.h"
 
 #include <gtest/gtest.h>
@@ -128,8 +128,8 @@ TEST(Verifier, ATouchAtTheBeginningIsBothContactAndIntersection) {
   EXPECT_EQ(result.first->first.end, 0);
 }
 
-/// Two faces a hinge apart: the free corner of the second goes from `from` to `to`, that of the first stays at (0, 1,
-/// 0).
+/// Two faces joined by a hinge. The free corner of the second moves from `from` to `to`; that of the first stays at
+/// (0, 1, 0).
 Step hinge(const Position& from, const Position& to) {
   Step step;
   const VertexId a = step.vertex({-1, 0, 0}), b = step.vertex({1, 0, 0});
@@ -145,7 +145,7 @@ TEST(Verifier, AHingeThatStaysOpenTouchesNothing) {
 
 TEST(Verifier, AHingeThatFoldsOntoItselfTouches) {
   const VerifyResult result = verify(hinge({0, 0.5, 1}, {0, 0.5, 0}));
-  EXPECT_EQ(result.contacts[vertex_face], 1u);  // d comes to lie on abc
+  EXPECT_EQ(result.contacts[vertex_face], 1u);  // d ends up on abc
   EXPECT_EQ(result.initial_intersections, 0u);
   const VerifyResult flat = verify(hinge({0, 0.5, 0}, {0, 0.5, 1}));
   EXPECT_EQ(flat.contacts[vertex_face], 1u);
@@ -243,7 +243,7 @@ TEST(Verifier, StrictCountsAPairOfFeaturesOnce) {
   step.mesh.edges = {{c, b}};
   const std::array<std::uint64_t, 4> one = {0, 0, 1, 0};
   EXPECT_EQ(verify(step, strictly()).contacts, one) << "a corner, no cell, against the loose edge";
-  step.mesh.points = {a};  // a pair of two cells now, which is there without being strict
+  step.mesh.points = {a};  // now a pair of two cells, which counts without `strict`
   EXPECT_EQ(verify(step).contacts, one);
   EXPECT_EQ(verify(step, strictly()).contacts, one);
   const WorldLines lines = WorldLines::from_frames(step.x_t0, step.x_t1);
@@ -297,7 +297,7 @@ TEST(Verifier, TheFirstContactIsTheEarliest) {
   const VerifyResult result = verify(step);  // at 3/4, 1/3, 1/3
   EXPECT_EQ(result.contacts[vertex_face], 3u);
   ASSERT_TRUE(result.first);
-  EXPECT_EQ(result.first->vertices[0], 4u);  // of two that are first, the one with the lesser vertices
+  EXPECT_EQ(result.first->vertices[0], 4u);  // of two first contacts, the one with smaller vertex numbers
   EXPECT_LT(result.first->first.begin, 1.0 / 3 + 0x1p-50);
   EXPECT_GT(result.first->first.end, 1.0 / 3 - 0x1p-50);
 }

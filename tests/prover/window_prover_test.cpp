@@ -10,7 +10,7 @@
 namespace noli::testing {
 namespace {
 
-/// A point that goes round another one, a quarter of a round from breakpoint to breakpoint.
+/// A point that circles another one, a quarter turn from breakpoint to breakpoint.
 LineScene orbit(int quarters) {
   const Position places[] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   std::vector<Breakpoint> path;

@@ -113,7 +113,7 @@ oracle::Motion motion_of(const PairKey& key, const Step& step, int dimension) {
   return motion;
 }
 
-/// The sign of the orientation just after the begin of a motion; 0 if it has none.
+/// The sign of the orientation just after the beginning of a motion; 0 if it has none.
 int orientation_after(const oracle::Motion& motion) {
   const auto form = oracle::orientation(motion, oracle::integer_paths(motion, oracle::Unit::per_axis).x);
   return form ? oracle::Time().sign_after(*form) : 0;
@@ -126,7 +126,7 @@ bool interior_at_begin(const oracle::Motion& motion) {
                      [](const auto& p) { return oracle::Time().sign_of(p) > 0; });
 }
 
-/// At the border between two unit steps.
+/// The kind of a contact at the border between two unit steps.
 ContactKind kind_at_border(const PairKey& key, const Step& before, const Step& after, int dimension) {
   const oracle::Motion next = motion_of(key, after, dimension);
   if (oracle::first_contact(next).kind == oracle::Kind::persistent) return ContactKind::persistent;

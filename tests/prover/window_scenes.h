@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes whose vertices have breakpoints of their own, and what the definitions say about them.
+// Builds meshes whose vertices have individual breakpoints, and the answers that follow from the definitions.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct Breakpoint {
   Position x;
 };
 
-/// One window only, its cells grouped by where it begins.
+/// Verifies a single window; its cells are grouped by their positions at its beginning.
 WindowResult verify_window(const Mesh& mesh, const WorldLines& lines, const WindowOptions& options);
 
 /// A mesh over one window.
@@ -27,21 +27,21 @@ struct LineScene {
 
   /// Adds a vertex; returns its id.
   VertexId vertex(std::vector<Breakpoint> path);
-  /// Adds one that stays, over the window of the vertices before it.
+  /// Adds a vertex that rests, over the window of the vertices before it.
   VertexId vertex(const Position& x);
-  /// Adds a face with three vertices of its own that stay.
+  /// Adds a face with three vertices of its own that rest.
   void face(const Position& a, const Position& b, const Position& c);
   WorldLines lines() const;
 };
 
-/// The same with two breakpoints a vertex, at 0 and 1.
+/// The same motion with two breakpoints per vertex, at 0 and 1.
 LineScene line_scene_of(const Step& step);
 
-/// Times are the integers from 0 to `steps`, of which each vertex has some; coordinates are multiples of 60, so that
-/// with at most six steps the places at all integer times are integers.
+/// A random scene. Each vertex has breakpoints at some of the integers from 0 to `steps`. Coordinates are multiples of
+/// 60, so that with at most six steps all positions at integer times are integers.
 LineScene random_line_scene(std::uint64_t seed, const SoupSize& size, int dimension, int steps);
 
-/// The motion between two successive integer times, exact where all places are integers then.
+/// The motion between two successive integer times, exact if all positions there are integers.
 Step unit_step(const LineScene& scene, int k);
 
 /// When and how a pair of features first meets: at `time` within unit step `step`, -1 if never.
@@ -54,10 +54,10 @@ struct WindowTruth {
   std::map<PairKey, int> contacts;
   std::set<std::pair<std::uint32_t, std::uint32_t>> initial;
   WindowAnswer first_answer;
-  std::set<PairKey> first;  ///< those that meet at the first time
+  std::set<PairKey> first;  ///< the pairs that meet at the first time
 };
 
-/// By the definitions, in rational arithmetic. Precondition: as random_line_scene makes it.
+/// The answer by the definitions, in rational arithmetic. Precondition: breakpoints as in random_line_scene.
 WindowTruth window_truth(const LineScene& scene, int dimension, int steps, bool strict = false);
 
 /// The kind of the contact of a pair of features that first meets at `at`.

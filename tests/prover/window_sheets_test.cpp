@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sheets in windows: what is settled because a sheet is monotone, against the same without a layout and against the
+// Tests sheets in windows: compares answers that use monotone sheets with those without a layout, and with the
 // definitions.
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace noli::testing {
 namespace {
 
-/// A surface whose vertices move from place to place at times of their own within [0, 6].
+/// A surface whose vertices have individual breakpoints within [0, 6].
 struct Motion {
   Surface surface;
   std::vector<std::vector<Breakpoint>> paths;
@@ -26,8 +26,7 @@ struct Motion {
   }
 };
 
-/// Every vertex v of the surface goes through place(v, t) at some of the times 0, 1, ..., 6, always at the first and
-/// last.
+/// Every vertex v of the surface is at place(v, t) at some of the times 0, 1, ..., 6, always at the first and the last.
 template <class Place>
 Motion moving(const Surface& surface, std::uint64_t seed, const Place& place) {
   Random random(seed);
@@ -50,7 +49,7 @@ Motion wave(const Surface& surface, double height) {
   });
 }
 
-/// The surface rolled up along its first axis, more and more: from a radius that leaves it open to one that does not.
+/// Rolls the surface up along its first axis, with a radius that changes from `from` to `to`.
 Motion roll(const Surface& surface, double from, double to) {
   return moving(surface, 2, [&](VertexId v, double t) {
     const Position& x = surface.x[v];
@@ -59,7 +58,7 @@ Motion roll(const Surface& surface, double from, double to) {
   });
 }
 
-/// Random steps of up to `rough`, to integer multiples of 60 / 64 so that the places at all integer times are doubles.
+/// Random steps of up to `rough`, to integer multiples of 60 / 64, so that positions at all integer times are doubles.
 Motion shaken(const Surface& surface, std::uint64_t seed, double rough, std::size_t axes = 3) {
   Random random(seed + 77);
   return moving(surface, seed, [&](VertexId v, double) {
@@ -80,7 +79,7 @@ WindowResult with_layout(const Motion& motion, const WindowOptions& options = pl
   return WindowVerifier(motion.surface.mesh, motion.surface.x, options).verify(motion.scene().lines(), options);
 }
 
-/// Everything at one place has no layout.
+/// Verifies without a layout: a surface with all vertices at one position has none.
 WindowResult without_layout(const Motion& motion, const WindowOptions& options = plain()) {
   const std::vector<Position> nowhere(motion.surface.x.size());
   return WindowVerifier(motion.surface.mesh, nowhere, options).verify(motion.scene().lines(), options);
@@ -256,7 +255,7 @@ TEST(WindowSheets, StrictAlsoLooksAtTheFeaturesOfOneCell) {
   EXPECT_GT(result.contact_count(), with_layout(wild).contact_count());
 }
 
-// --- parts that are no sheets
+// --- parts that are not sheets
 
 Motion tremble(const Surface& surface, double much) {
   return moving(surface, 5, [surface, much](VertexId v, double t) {
@@ -287,7 +286,7 @@ TEST(WindowCharts, RandomOnesAreAnsweredAlikeWithAndWithoutCharts) {
   EXPECT_GT(apart, 5);
 }
 
-/// A band wound around an axis twice, its windings much closer than its edges are long.
+/// A band wound around an axis twice; its windings are much closer together than its edges are long.
 Motion spiral(double from, double to) {
   const Surface flat = grid(24, 5);
   const auto place = [&](VertexId v, double pitch) {
@@ -309,7 +308,7 @@ TEST(WindowCharts, LayersOverOneAnotherAreNotTakenForOne) {
   expect_equal(closing, without_layout(spiral(0.1, -0.02)));
 }
 
-/// More breakpoints on the lines that there are change nothing: dyadic, so that they are on them exactly.
+/// Extra breakpoints on existing lines change nothing. They are dyadic, so that they lie exactly on the lines.
 TEST(WindowSheets, BreakpointsOnTheLineChangeNothing) {
   for (const double rough : {0.1, 0.7}) {
     Motion motion = shaken(grid(6, 6), 12, rough);
@@ -339,7 +338,7 @@ TEST(WindowSheets, BreakpointsOnTheLineChangeNothing) {
   }
 }
 
-/// A sheet that trembles so much that its chords say nothing: time is cut.
+/// A sheet that trembles so much that its chords decide nothing, so time is split.
 TEST(WindowSheets, RestlessVerticesCutTime) {
   const Surface surface = grid(12, 12);
   Random random(8);

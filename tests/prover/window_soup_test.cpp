@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random meshes whose vertices have breakpoints of their own, against the definitions.
+// Compares random meshes whose vertices have individual breakpoints with the definitions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

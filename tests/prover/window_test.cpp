@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small windows made by hand, each with what the definitions say about it.
+// Tests small windows made by hand, each with the answer that follows from the definitions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ WindowOptions in_2d() {
   return options;
 }
 
-/// A face in the plane z = 0 over [0, 3], and a loose point above (1, 1) that goes through the given heights.
+/// A face in the plane z = 0 over [0, 3], and a loose point above (1, 1) with the given heights.
 LineScene point_over_face(const std::vector<std::pair<double, double>>& heights) {
   LineScene scene;
   std::vector<Breakpoint> path;
@@ -59,7 +59,7 @@ TEST(Window, ADetourBetweenApartEndsMeets) {
 }
 
 TEST(Window, ADetourAwayFromADirectContactMeetsNothing) {
-  // Straight from (1, 1, 1) to (1, 1, -1) it would go through; it goes around.
+  // The straight line from (1, 1, 1) to (1, 1, -1) passes through the face; the point goes around it.
   LineScene scene;
   scene.mesh.points = {scene.vertex({{0, {1, 1, 1}}, {1, {-5, -5, 1}}, {2, {-5, -5, -1}}, {3, {1, 1, -1}}})};
   scene.face({0, 0, 0}, {9, 0, 0}, {0, 9, 0});
@@ -93,10 +93,10 @@ TEST(Window, KindAtTheEnds) {
   EXPECT_EQ(verify(point_over_face({{0, 0}, {1, 0}, {3, 1}})).first->kind, ContactKind::persistent);
 }
 
-/// The border between two pieces of the recursion is not one of the motion: a breakpoint of a third vertex is no kink.
+/// Borders between pieces of the recursion are not kinks of the motion, and neither is a breakpoint of a third vertex.
 TEST(Window, ABreakpointOfAnotherVertexDoesNotChangeTheKind) {
   LineScene scene = point_over_face({{0, 1}, {2, -1}, {3, 1}});
-  // A corner of the face's neighbour has a breakpoint at the very time of the crossing.
+  // A corner of the face's neighbour has a breakpoint exactly at the time of the crossing.
   scene.paths.push_back({{0, {9, 9, 0}}, {1, {9, 9, 5}}, {3, {9, 9, 0}}});
   ++scene.mesh.vertex_count;
   scene.mesh.faces.push_back({2, 4, 3});
@@ -205,8 +205,7 @@ TEST(Window, ExcludedPairsOfGroupsAreNotLookedAt) {
 }
 
 TEST(Window, AScriptedVertexOfAFreeCellIsLookedAt) {
-  // Vertex 0 belongs to a scripted face, which comes first, and to a free one: its contact counts because of the
-  // latter.
+  // Vertex 0 belongs to a scripted face, which comes first, and to a free one, which makes its contact count.
   LineScene scene;
   const VertexId v = scene.vertex({{0, {1, 1, 1}}, {1, {1, 1, -1}}});
   const VertexId a = scene.vertex({1, 1, 5}), b = scene.vertex({2, 1, 5}), c = scene.vertex({1, 2, 6});

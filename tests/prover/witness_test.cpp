@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Witnesses of contact: one for each contact of random meshes, those of the ends of doubles' range, and what the judge
-// refuses.
+// Tests witnesses of contact: for each contact of random meshes, at the ends of the range of double, and the judge's
+// refusals.
 #include "proofs/prover/witness/witness.h"
 
 #include <gmpxx.h>
@@ -92,7 +92,7 @@ constexpr SoupCase soups[] = {
     {{3, 2, 2, 1, 2}, 3, true},   {{3, 1, 2, 1, 2}, 2, false},  {{2, 1, 1, 1, 2}, 2, true},
 };
 
-/// Small whole numbers make every degeneracy there is.
+/// Small integers produce every degeneracy.
 TEST(Witness, EveryContactOfFramesHasOne) {
   std::size_t contacts = 0;
   for (const SoupCase& soup : soups) {
@@ -145,7 +145,7 @@ TEST(Witness, EveryContactOfAWindowHasOne) {
   EXPECT_GE(contacts, 1000u);
 }
 
-/// Roots are as small as products of three smallest doubles are beside products of three largest ones.
+/// Roots can be as small as the product of three smallest doubles divided by that of three largest ones.
 TEST(Witness, ContactsInTheFirst2ToMinus1024OfAStepHaveOne) {
   const Mesh mesh{4, {}, {{0, 1}, {3, 2}}, {}};
   const std::vector<Position> x_t1 = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, -0x1p30}};
@@ -163,10 +163,10 @@ TEST(Witness, ContactsInTheFirst2ToMinus1024OfAStepHaveOne) {
 
 // --- the judge ---
 
-using Coefficients = std::vector<mpz_class>;  ///< as they are written, zeros at the end included
+using Coefficients = std::vector<mpz_class>;  ///< as written, with zeros at the end
 
-/// The point 0 rests in the origin; the edge 1-2 comes over it when (1 + t)^2 = 2. Its ends are at -(1 + t), -1 and 2,
-/// 1 + t.
+/// Point 0 rests at the origin. Edge 1-2 passes over it when (1 + t)^2 = 2: its ends are at (-(1 + t), -1) and
+/// (2, 1 + t).
 class Judge : public ::testing::Test {
  protected:
   using Side = std::vector<std::pair<VertexId, Coefficients>>;
@@ -271,7 +271,7 @@ TEST_F(Judge, RefusesOtherWeights) {
   EXPECT_EQ(fault([](Fields& w) { w.p[0].second = {}; }), "a polynomial has 1 to 32 coefficients");
 }
 
-/// 1,200 groups of seven bits are 8,400 bits, one of them for the sign.
+/// 1,200 groups of seven bits hold 8,400 bits, one of them for the sign.
 TEST_F(Judge, RefusesIntegersBeyondTheLimit) {
   const mpz_class most = (mpz_class(1) << 8399) - 1;
   EXPECT_EQ(fault([&](Fields& w) { w.p[0].second = {most}; }), "");
@@ -287,7 +287,7 @@ TEST_F(Judge, RefusesOtherBytes) {
   EXPECT_EQ(fault_of(longer + '\0'), "an integer is written longer than it is");
 }
 
-/// At t = 1/2, where the points are 1/2 apart or so.
+/// Uses t = 1/2, where the points are about 0.35 apart.
 TEST_F(Judge, KnowsTheLeastDistance) {
   const auto beside = [](Fields& w) {
     w.q = {{1, Coefficients{1}}, {2, Coefficients{1}}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What cmake/NoliCcdLibraries.cmake says when a library of others is asked for that is not there. As a script, so that
-// nothing has to be configured for it.
+// Tests the messages of cmake/NoliCcdLibraries.cmake for missing third-party libraries. It runs as a script, so nothing
+// needs to be configured.
 #include <gtest/gtest.h>
 
 #include <string>

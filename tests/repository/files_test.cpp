@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What holds for every file of the project.
+// Checks every file of the project: licences, sizes, no private paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST(Files, APlantedPathIsFound) {
             "");
 }
 
-/// A folder is a room: who looks for something in it should not have to read more names than that.
+/// Folders stay small enough to find a file by reading their names.
 TEST(Files, NoFolderHasMoreThanFortySources) {
   constexpr int most = 40;
   std::map<std::string, int> sources;
@@ -87,7 +87,7 @@ TEST(Files, HeadersAreReadOnce) {
   }
 }
 
-/// The manual is in docs/.
+/// The README stays short; the manual is in docs/.
 TEST(Files, TheReadmeIsAPage) {
   std::istringstream readme(read_text(fs::path(NOLI_SOURCE_DIR) / "README.md"));
   const auto words = std::distance(std::istream_iterator<std::string>(readme), std::istream_iterator<std::string>());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Installs the project into an empty folder and builds and runs examples/ against what is there, as a user would.
+// Installs the project into an empty folder, then builds and runs examples/ against it, as a user would.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ void succeed(const std::string& command) {
   ASSERT_EQ(exit_code, 0) << command << "\n" << output;
 }
 
-/// A library built with a sanitizer needs it in the programs too.
+/// Programs that link a library built with a sanitizer need the sanitizer too.
 std::string sanitizer_flags() {
   const std::string sanitizers = NOLI_SANITIZE;
   return sanitizers.empty() ? "" : " -DCMAKE_CXX_FLAGS=-fsanitize=" + sanitizers;

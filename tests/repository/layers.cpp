@@ -30,12 +30,12 @@ const std::map<std::string, Row>& table() {
       {"include", {}},           {"kernel", {}},       {"trajectory", {}},     {"certificates", geometry},
       {"integrator", dynamics},  {"proofs", geometry}, {"proofs/checker", {}}, {"certify", both_wings},
       {"report", questions},     {"oracle", {}},       {"audit", answers},     {"app", with(answers, {"audit"})},
-      {"examples", {"include"}},  // what is installed
+      {"examples", {"include"}},  // installed headers
   };
   return rows;
 }
 
-/// Public headers belong to the layer that defines what they declare. Others have nothing behind them.
+/// Public headers belong to the layer that implements them. The others are header-only and belong to `include`.
 std::string home_of_public(const std::string& target) {
   static const std::map<std::string, std::string> homes = {
       {"noli/query.h", "kernel"},      {"noli/contact.h", "kernel"},   {"noli/time_of_impact.h", "kernel"},
@@ -48,7 +48,7 @@ std::string home_of_public(const std::string& target) {
   return found == homes.end() ? "include" : found->second;
 }
 
-/// What users see of the project, and nothing else.
+/// True for code that may use only the public headers.
 bool sees_public_alone(const fs::path& file) {
   const std::string layer = layer_of(file);
   return layer == "include" || layer == "examples";

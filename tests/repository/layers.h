@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who may include whom. The table is that of the design: geometry and trajectories know nothing of the project, physics
-// and proof never meet below certify, the checker knows nobody, the oracle knows nobody, and only the command knows
-// all.
+// Checks which layer includes which, by the table of the design. Kernel and trajectory include no other layer. Physics
+// and proof never meet below certify. Checker and oracle include nothing of the project; only the command includes all.
 //
-// What this does not do: it does not run the preprocessor. An include counts even where an #if leaves it out.
+// The preprocessor does not run, so an include counts even where an #if leaves it out.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +14,7 @@
 
 namespace noli::repository {
 
-/// One #include line. `target` is what stands between the quotes or brackets, and empty where a macro names it.
+/// One #include line. `target` is the text between the quotes or brackets; empty if a macro names the file.
 struct Include {
   int line = 0;
   std::string target;
@@ -23,11 +22,11 @@ struct Include {
 
 std::vector<Include> includes(std::string_view text);
 
-/// The layer a path relative to the project's root is in: its row of the table ("kernel", "proofs/checker",
-/// "oracle", ...), else its first folder.
+/// The layer of a path relative to the project's root: its row of the table ("kernel", "proofs/checker", "oracle",
+/// ...), else its first folder.
 std::string layer_of(const std::filesystem::path& relative);
 
-/// The layer that an include of `file` (relative to `root`) leads to; nothing if it leads out of the project.
+/// The layer that an include of `file` (relative to `root`) leads to; nullopt if it leads out of the project.
 std::optional<std::string> included_layer(const std::filesystem::path& root, const std::filesystem::path& file,
                                           const std::string& target);
 

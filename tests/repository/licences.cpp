@@ -15,7 +15,7 @@ namespace {
 
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-/// Text with comment signs and runs of white space as single spaces, so that a sentence is found however it is wrapped.
+/// The text with comment signs and runs of white space as single spaces, so that sentences are found however wrapped.
 std::string running_text(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -29,16 +29,14 @@ std::string running_text(std::string_view text) {
   return out;
 }
 
-/// Whether one alternative of an SPDX expression may be chosen: no GPL without an exception, and nothing one has to
-/// buy.
+/// Whether one alternative of an SPDX expression is acceptable: no GPL without an exception, and no commercial licence.
 bool may_be_chosen(const std::string& alternative) {
   static const std::regex gpl(R"((^|[^A-Za-z])A?GPL-)");
   const bool is_gpl = std::regex_search(alternative, gpl) && !contains(alternative, " WITH ");
   return !is_gpl && !contains(alternative, "LicenseRef-Commercial");
 }
 
-/// "A OR B" is acceptable when one of them is. Brackets are not looked into: "(A OR B) AND C" is judged as if C stood
-/// with B.
+/// "A OR B" is acceptable if A or B is. Brackets are ignored: "(A OR B) AND C" is judged as "A OR (B AND C)".
 bool acceptable(const std::string& expression) {
   static const std::regex either(R"(\s+OR\s+)");
   for (auto part = std::sregex_token_iterator(expression.begin(), expression.end(), either, -1);
@@ -48,7 +46,7 @@ bool acceptable(const std::string& expression) {
   return false;
 }
 
-/// What the SPDX lines say: nothing where there is no objection. Sets `stated` when there is any.
+/// The objection of the SPDX lines; empty if there is none. Sets `stated` if there is an SPDX line.
 std::string spdx_objection(const std::string& text, bool& stated) {
   static const std::regex spdx(R"(SPDX-License-Identifier:[ \t]*([^\r\n]*))");
   for (auto line = std::sregex_iterator(text.begin(), text.end(), spdx); line != std::sregex_iterator(); ++line) {
@@ -69,7 +67,7 @@ bool speaks_of_gpl_alone(std::string_view text) {
   return true;
 }
 
-/// The sources that are compiled as one file (cmake/NoliBatches.cmake), or this one.
+/// The sources that are compiled as one file (cmake/NoliBatches.cmake), else `file` alone.
 std::vector<fs::path> sources_of(const fs::path& file) {
   if (file.parent_path().filename() != "Unity") return {file};
   static const std::regex include("#include \"([^\"]*)\"");

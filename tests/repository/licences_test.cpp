@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The layers whose code is in the libraries or in the command.
+/// The layers with code in the libraries or in the command.
 const std::set<std::string> shipped = {"kernel",         "trajectory", "certificates", "integrator", "proofs",
                                        "proofs/checker", "certify",    "report",       "audit",      "app",
                                        "oracle",         "include"};
@@ -43,8 +43,8 @@ CompileCommand kernel_command() {
   throw std::runtime_error("the build does not compile kernel/parallel.cpp");
 }
 
-/// A source that includes every header of a layer, so that headers which no source of ours includes are judged too.
-/// Those of noli_series need HDF5's, which the others do not find: its own sources include them all.
+/// A source that includes every header of a layer, so that headers that none of our sources includes are judged too.
+/// Headers of noli_series are left out: they need HDF5's, and its own sources include them all.
 std::string all_headers(const std::string& layer) {
   std::string text;
   for (const fs::path& file : files_below(NOLI_SOURCE_DIR)) {
@@ -99,7 +99,7 @@ TEST(LicencesSlow, WhatShipsStandsOnNothingStricterThanLgpl) {
   EXPECT_TRUE(violations.empty()) << lines(violations);
 }
 
-/// Compiles one line with the kernel's flags and judges all that the compiler then reads.
+/// Compiles one line with the kernel's flags and judges every file that the compiler reads.
 std::vector<std::string> violations_of(const std::string& line) {
   const TemporaryFolder scratch;
   write_file(scratch.path() / "planted.cpp", line + "\n");
@@ -179,7 +179,7 @@ TEST(Licences, TheCommandNeedsTheStatedLibrariesOnly) {
   EXPECT_EQ(lines(unexpected_libraries(output)), "");
 }
 
-/// What it needs, and what that needs.
+/// The libraries that the program needs, directly or indirectly.
 std::string ldd(const std::string& program) {
   const auto [exit_code, output] = run("ldd " + quoted(program));
   EXPECT_EQ(exit_code, 0) << program;
@@ -206,7 +206,7 @@ TEST(Licences, Hdf5IsInTheProgramForSeries) {
 }
 #endif
 
-/// A static library that refers to HDF5 would bring it to all who link it.
+/// A static library that refers to HDF5 would force it on every program that links it.
 TEST(Licences, NoLibraryOfOursRefersToHdf5) {
   int seen = 0;
   for (const char* const library : {"kernel/libnoli_kernel.a", "trajectory/libnoli_trajectory.a",

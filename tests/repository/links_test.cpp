@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every link of a document and every reference of a source leads somewhere.
+// Checks that every link in a document and every reference in a source leads to something that exists.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -26,7 +26,7 @@ std::vector<std::string> all_matches(const std::string& text, const char* patter
 
 bool is_prose(const fs::path& path) { return path.extension() == ".md"; }
 
-/// Targets of the links of a document that are files of the project, but are not there.
+/// Targets of links in a document to files of the project that do not exist.
 std::vector<std::string> dead_links(const fs::path& document, const std::string& text) {
   std::vector<std::string> dead;
   const std::string prose = std::regex_replace(text, std::regex("`[^`]*`"), "code");
@@ -37,7 +37,7 @@ std::vector<std::string> dead_links(const fs::path& document, const std::string&
   return dead;
 }
 
-/// Sections of docs/ that a source refers to, but that are not there: "docs/contact.md, 4", and (design, "Volume").
+/// Sections of docs/ that a source refers to but that do not exist: "docs/contact.md, 4", and (design, "Volume").
 std::vector<std::string> dead_sections(const std::string& source, const std::string& contact,
                                        const std::string& design) {
   std::vector<std::string> dead;
@@ -50,7 +50,7 @@ std::vector<std::string> dead_sections(const std::string& source, const std::str
   return dead;
 }
 
-/// Files and folders that a text names in backticks, but that are not there.
+/// Files and folders that a text names in backticks but that do not exist.
 std::vector<std::string> dead_places(const fs::path& root, const std::string& text) {
   std::vector<std::string> dead;
   for (const std::string& place : all_matches(text, R"(`([a-z_]+/[A-Za-z_/.-]*)`)")) {

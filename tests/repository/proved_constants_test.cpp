@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The constants of the floating-point filters are those of the theorems in proofs/gappa.
+// Checks that the constants of the floating-point filters are those of the theorems in proofs/gappa.
 //
-// Both are compared as text, so that also those in a .cpp can be: `Definition X := E.` in Constants.v, after a comment
-// that is the path of a source, asks for `constexpr double X = E;` in that source, where 0x1pk stands for
+// Both are compared as text, so that constants in a .cpp can be checked too. `Definition X := E.` in Constants.v, after
+// a comment that is the path of a source, requires `constexpr double X = E;` in that source, where 0x1pk stands for
 // `bpow radix2 (k)`.
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<ProvedConstant> proved_constants(const std::string& theory) {
   return found;
 }
 
-/// The values that a source gives to the constant.
+/// The values of the constant in a source.
 std::vector<std::string> values_in(const std::string& code, const std::string& name) {
   const std::regex pattern("\\bconstexpr double " + name + " = ([^;]*);");
   std::vector<std::string> values;

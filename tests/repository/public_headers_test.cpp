@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The public headers stand on their own. That each compiles alone, and all together, is tested by the target
-// noli_public_headers: it sees no other header of the project.
+// Checks that the public headers stand on their own. The target noli_public_headers, which sees no other header of the
+// project, tests that they compile, each alone and all together.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ bool is_of_standard_library(const std::string& target) {
   return target.find_first_of("./") == std::string::npos || target == "stddef.h" || target == "stdint.h";
 }
 
-/// What one public header may include beside other public headers and the standard library.
+/// The only headers that a public header may include besides other public headers and the standard library.
 bool is_of_cgal(const std::string& target) { return target.starts_with("CGAL/") || target == "mpfr.h"; }
 
 TEST(PublicHeaders, AreFew) {
@@ -43,7 +43,7 @@ TEST(PublicHeaders, IncludeNothingInside) {
   }
 }
 
-/// Each is a manual: it says what it offers before it offers it.
+/// Each public header explains what it offers before it declares it.
 TEST(PublicHeaders, BeginWithTheirManual) {
   for (const fs::path& header : public_headers()) {
     const std::string text = read_text(header);

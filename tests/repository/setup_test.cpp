@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// scripts/setup in a world of our making: dpkg-query, id, apt-get and sudo are replaced by scripts that say what the
-// test wants.
+// Tests scripts/setup with dpkg-query, id, apt-get and sudo replaced by scripts that answer as each test needs.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The small programs of scripts/, with the command they are made for.
+// Tests the small programs of scripts/ together with the command they are made for.
 #include <gtest/gtest.h>
 
 #include <filesystem>

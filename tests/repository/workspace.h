@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files and commands, as the tests of this folder need them.
+// Helpers for files and commands in the tests of this folder.
 #pragma once
 
 #include <filesystem>
@@ -15,27 +15,27 @@ namespace noli::repository {
 using test::read_text;
 using test::TemporaryFolder;
 
-/// Writes the file, and makes the folders it is in.
+/// Writes the file and creates its parent folders.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-/// All files below `folder` in ascending order, but for what git ignores here (build folders, caches) and .git itself.
+/// All files below `folder` in ascending order, except .git and what git ignores (build folders, caches).
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);
 
 /// Whether the file is C++ by its name: .h or .cpp.
 bool is_cpp(const std::filesystem::path& path);
 
 struct CommandResult {
-  int exit_code = -1;  ///< as a shell gives it; 128 + n when ended by signal n
+  int exit_code = -1;  ///< as in a shell; 128 + n after signal n
   std::string output;  ///< standard output; redirect with 2>&1 for both
 };
 
-/// Runs a line of shell and waits for it.
+/// Runs a shell command and waits for it.
 CommandResult run(const std::string& command);
 
 /// The text as one word of a shell command.
 std::string quoted(const std::string& text);
 
-/// Each on a line of its own.
+/// Each string on its own line.
 std::string lines(const std::vector<std::string>& all);
 
 }  // namespace noli::repository

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates as Algorithm 1 has them (Harmon et al. 2009): a slab for every pair of features, each with its failure
-// time, and all of them that depend on a vertex computed anew whenever its velocity may have changed (lines 11 to 13).
-// For comparison: certificates/cells.h does the same for a small part of the cost.
+// Implements certificates literally as Algorithm 1 of Harmon et al. (2009), for comparison with certificates/cells.h,
+// which does the same at a small part of the cost. Every pair of features has a slab with a failure time. Whenever the
+// velocity of a vertex may have changed, the failure times of all its pairs are computed anew (lines 11 to 13).
 //
 // Notation: that of certificates/cells.h, and
 //   failure      the first time at which one of a slab's vertices reaches its wall
-//   contingent   of a vertex: the pairs that it is part of
+//   contingent   of a vertex: the pairs that contain it
 //
-// What this does not do: it has no broad phase, so it takes memory for the square of the number of features.
+// There is no broad phase: memory grows with the square of the number of features.
 #pragma once
 
 #include <limits>
@@ -27,7 +27,7 @@ namespace noli::certificates {
 template <int Dim, class Host>
 class EveryPair {
  public:
-  /// Host: as in certificates/cells.h. What follows the mesh is for Cells.
+  /// Host: as in certificates/cells.h. Only Cells uses the parameters after the mesh.
   explicit EveryPair(Host& host, const Mesh& mesh, std::span<const Vector<Dim>> = {}, double = 0)
       : host_(host), decisions_(host), contingent_(mesh.vertex_count) {
     const Features features(mesh, Dim);
@@ -102,7 +102,7 @@ class EveryPair {
     if (s != never) queue_.insert({s, p});
   }
 
-  /// Not before t.
+  /// The failure time, at least t.
   double failure_time(const NearPair<Dim>& pair, double t) const {
     double failure = never;
     for (std::size_t k = 0; k < pair.stencil.size(); ++k) {
@@ -119,7 +119,7 @@ class EveryPair {
   std::vector<std::vector<std::uint32_t>> contingent_;
   std::vector<double> failures_;
   std::set<std::pair<double, std::uint32_t>> queue_;
-  double instant_ = -never;  ///< of the last event, and how many there were at it
+  double instant_ = -never;  ///< time of the last event; at_once_ counts the events at it
   std::size_t at_once_ = 0;
   CertificateCounts counts_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A simulation whose certificates are those of Algorithm 1, read literally: every run has to equal it, bit for bit.
+// Defines a simulation with the certificates of Algorithm 1 taken literally (every_pair.h). Every run must equal it,
+// bit for bit.
 #pragma once
 
 #include <utility>

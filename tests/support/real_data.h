@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where tests and benchmarks find real data: the folder that the environment variable NOLI_DATA names, else
-// ../shared/data beside the source tree. It need not exist.
+// Finds real data for tests and benchmarks: in the folder named by the environment variable NOLI_DATA, else in
+// ../shared/data beside the source tree. The folder need not exist.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace noli::test {
 
-/// A file or folder of the real data; nothing when it is not there, and then what is skipped is said on standard error.
+/// A file or folder of the real data. If it is missing, returns nullopt and prints what is skipped to standard error.
 std::optional<std::filesystem::path> real_data(const std::string& name);
 
 }  // namespace noli::test

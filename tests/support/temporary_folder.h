@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A folder for the files of one test.
+// Creates a folder for the files of one test.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace noli::test {
 
-/// A new empty folder, removed with all that is in it at the end of the scope. Throws std::runtime_error when it or a
-/// file in it cannot be made.
+/// A new empty folder, removed with its contents at the end of the scope. Throws std::runtime_error if it or a file in
+/// it cannot be created.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -23,14 +23,14 @@ class TemporaryFolder {
   std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
   /// Writes a file and returns its path.
   std::filesystem::path write(const std::string& file, std::string_view content) const;
-  /// Names of the files in it, sorted.
+  /// Names of its files, sorted.
   std::vector<std::string> names() const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// The whole file. Throws std::runtime_error when it cannot be read.
+/// The content of a file. Throws std::runtime_error if it cannot be read.
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace noli::test

@@ -33,7 +33,7 @@ std::string file_header() {
   return bytes;
 }
 
-/// The commit block that belongs behind `group`.
+/// The commit block that belongs after `group`.
 std::string raw_commit(std::uint64_t number, const std::string& group, const Sha256Digest& running_before) {
   std::string payload;
   put(payload, number);
@@ -186,7 +186,7 @@ TEST(BlockFileErrors, OfTheFileSystem) {
             folder.path().string() + ": is no regular file; expected one");
 }
 
-/// A disk that takes one byte more.
+/// The disk has space for one more byte.
 TEST(FileSink, AFullDiskIsAnError) {
   const test::TemporaryFolder folder;
   FileSink sink(folder / "file", FileSink::Open::create);

@@ -12,7 +12,7 @@
 namespace noli {
 namespace {
 
-/// `digits`, then so many zeros.
+/// `digits` followed by `count` zeros.
 std::string with_zeros(std::string digits, std::size_t count) { return digits.append(count, '0'); }
 
 struct Quotient {
@@ -111,7 +111,7 @@ TEST(ExactRational, WrittenInLowestTerms) {
   EXPECT_EQ(format_exact_quotient(1e22), with_zeros("1", 22) + ",1");
 }
 
-/// What format writes is read back bit for bit.
+/// Expects that the formatted value is read back bit for bit.
 void expect_round_trip(double value) {
   const std::string text = format_exact_quotient(value);
   const std::size_t comma = text.find(',');

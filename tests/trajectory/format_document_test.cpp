@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The worked example of trajectory/FORMAT.md has the bytes that the writer writes.
+// Tests that the worked example of trajectory/FORMAT.md has the bytes that the writer produces.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace noli::testing;
 
-/// The bytes of the lines "    OFFSET  BYTES  meaning"; a test failure where an offset is not that of its bytes.
+/// The bytes of the lines "    OFFSET  BYTES  meaning". A wrong offset is a test failure.
 std::string example_bytes(const std::string& document) {
   static const std::regex line_of_bytes(R"(    ([0-9a-f]{4})  (([0-9a-f]{2} ?)+)( .*)?)");
   std::string bytes;

@@ -27,7 +27,7 @@ Frame triangle(double z) {
 
 std::string ply(double z, PlyEncoding encoding) { return format_ply(triangle(z), encoding); }
 
-/// What is said when all are looked at.
+/// The error message of looking at all frames.
 std::string refusal(const Paths& frames, PolygonRule rule = PolygonRule::fan) {
   return input_error([&] {
     FrameInputs inputs(frames, rule);
@@ -185,7 +185,7 @@ TEST(FrameInputs, OtherSpellingsOfTheSameCellsAreTaken) {
   }
 }
 
-/// Whether both are meshes, and not the same.
+/// Whether both are valid meshes that differ.
 bool differ(const std::string& a, const std::string& b) {
   try {
     return parse_obj(a, "a.obj").mesh != parse_obj(b, "b.obj").mesh;
@@ -194,8 +194,8 @@ bool differ(const std::string& a, const std::string& b) {
   }
 }
 
-/// What looks the same is the same: two texts that differ in one statement, or in the order of two. Else a frame of
-/// another mesh would be noticed hours later.
+/// Frames with equal looks have equal meshes. Compares two texts that differ in one statement, or in the order of two.
+/// Otherwise a frame of another mesh would be noticed hours later.
 RC_GTEST_PROP(FrameLook, EqualLooksAreEqualMeshes, ()) {
   const auto statement = rc::gen::element<std::string>("v 0 0 0\n", "v 1 2 3\n", "f 1 2 3\n", "f -1 -2 -3\n",
                                                        "f 3 2 1\n", "f 1/1 2 3\n", "l 1 2\n", "l -1 -2\n", "p 1\n",
@@ -245,7 +245,7 @@ TEST(FrameInputs, PipesAreNotTouchedBeforeTheyAreRead) {
   const auto a = folder.write("a.obj", triangle_obj), pipe = folder / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   FrameInputs inputs({pipe, a});
-  inputs.look_at(0);  // would wait for a writer
+  inputs.look_at(0);  // reading would wait for a writer
   inputs.look_at(1);
   EXPECT_FALSE(inputs.facts()[0].looked_at);
   EXPECT_TRUE(inputs.facts()[1].looked_at);

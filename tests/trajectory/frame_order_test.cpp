@@ -111,7 +111,7 @@ TEST(FrameOrder, AsksWhereANumberMayBeADecimalOrTwo) {
                   "(0.10 before 0.9)") +
           advice);
   EXPECT_EQ(natural({"t_0.9.ply", "t_0.10.ply"}), (Paths{"t_0.10.ply", "t_0.9.ply"}));
-  expect_taken({"t_0.05.ply", "t_0.1.ply", "t_0.15.ply"});  // nobody counts 05 and 1
+  expect_taken({"t_0.05.ply", "t_0.1.ply", "t_0.15.ply"});  // counters are not padded like 05 and 1
   EXPECT_NE(order_refusal({"t_0.1.ply", "t_0.05.ply"}), "");
 }
 
@@ -163,8 +163,8 @@ TEST(FrameOrder, NotesAFileThatIsGivenTwice) {
             "a_2.ply is given twice: as frames 2, 3");
 }
 
-/// Names in a random order are refused, unless it is the right one, with two names that are indeed against each other;
-/// sorting brings back the right one.
+/// Names in a wrong random order are refused, and the message names two that are out of order. Sorting restores the
+/// right order.
 RC_GTEST_PROP(FrameOrder, PermutedNames, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(2, 20);
   const auto numbers = *rc::gen::unique<std::vector<int>>(count, rc::gen::inRange(0, 3000));
@@ -194,7 +194,7 @@ RC_GTEST_PROP(FrameOrder, PermutedNames, ()) {
   RC_ASSERT(named);
 }
 
-/// Equal numbers stay as they are given.
+/// Frames with equal numbers keep their order.
 RC_GTEST_PROP(FrameOrder, SortsStably, ()) {
   const auto numbers = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 4));
   Paths given;

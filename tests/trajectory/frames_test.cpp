@@ -16,7 +16,7 @@ using testing::input_error;
 
 const std::string face_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Frame k of a triangle that rises by one a frame.
+/// A frame of a rising triangle, at height z.
 Frame rising(double z) {
   return {.mesh = {.vertex_count = 3, .faces = {{0, 1, 2}}, .edges = {}, .points = {}},
           .positions = {{0, 0, z}, {1, 0, z}, {0, 1, z}}};

@@ -40,7 +40,7 @@ TEST(Merge, NothingToMerge) {
   EXPECT_EQ(all_different.merged_count(), 0u);
 }
 
-/// The definition, in quadratic time: the least vertex that is at the same place in every frame.
+/// By definition, in quadratic time: the least vertex with the same position in every frame.
 Ids brute_force(const std::vector<Positions>& frames, std::size_t count) {
   Ids result(count);
   for (VertexId v = 0; v < count; ++v) {
@@ -74,7 +74,7 @@ TEST(Merge, MeshRefersToTheFirstOfEachClass) {
   EXPECT_TRUE(merged.points.empty());
 }
 
-/// As `noli verify --merge-identical` does it.
+/// Does the same as `noli verify --merge-identical`.
 IdenticalVertices find_identical_vertices(const std::vector<std::filesystem::path>& paths) {
   FrameInputs frames(paths);
   FrameSequence sequence(frames, Motion::constant);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes the payloads of a run's blocks as a string of bytes says, and puts all checksums and commits right again:
-// what no reader of checksums finds.
+// Changes the payloads of a run's blocks as directed by a string of bytes, and repairs all checksums and commits, so
+// that checksums cannot detect the damage.
 //
 //   changes  =  change*
 //   change   =  which block, two bytes; which change, one byte; where in it, two bytes; which number, one byte
 //
-// What is missing at the end is 0. All counts wrap, so that any bytes are changes.
+// Missing bytes at the end are 0. All counts wrap, so any bytes are valid changes.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class Choices {
   std::string_view bytes_;
 };
 
-/// Numbers at which readers break, as the bits of 64.
+/// 64-bit patterns that tend to break readers.
 inline const std::array<std::uint64_t, 18>& delicate_numbers() {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   constexpr auto infinity = std::numeric_limits<double>::infinity();
@@ -63,14 +63,14 @@ inline const std::array<std::uint64_t, 18>& delicate_numbers() {
   return all;
 }
 
-/// One change of bytes `at`; a number that does not fit there is cut off.
+/// Changes bytes at `at`. A number that does not fit there is cut off.
 inline void change_number(std::string& payload, std::size_t at, std::size_t which, std::size_t number) {
   std::string bytes;
   if (which == 0) put(bytes, delicate_numbers()[number % delicate_numbers().size()]);
   if (which == 1) put(bytes, static_cast<std::uint32_t>(delicate_numbers()[number % delicate_numbers().size()]));
   if (which == 2) bytes = static_cast<char>(payload[at] ^ (1 << number % 8));
   if (which == 3) bytes = static_cast<char>(number);
-  if (which == 4) {  // near what is there
+  if (which == 4) {  // near the old value
     std::string eight = payload.substr(at, 8);
     eight.resize(8, '\0');
     put(bytes, get<std::uint64_t>(eight.data()) + number - 128);
@@ -84,7 +84,7 @@ inline void change_block(std::vector<Block>& blocks, std::size_t i, Choices& cho
   std::string& payload = blocks[i].payload;
   if (which < numbers) {
     if (payload.empty()) return;
-    // Of doubles and counts, at one of them; of single bytes, at any.
+    // Doubles and counts change at a multiple of four, single bytes anywhere.
     const std::size_t step = which < 2 || which == 4 ? 4 : 1;
     return change_number(payload, place * step % payload.size(), which, number);
   }

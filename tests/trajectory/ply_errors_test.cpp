@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every way in which the text of a PLY file can be wrong, and the line and words of the message.
+// Tests every error in the text of a PLY file, with the line and words of its message.
 #include "support.h"
 #include "trajectory/formats/ply.h"
 #include "trajectory/text.h"
@@ -11,7 +11,7 @@ namespace {
 struct BadPly {
   const char* name;
   std::string text;
-  std::string message;  ///< all of it, after the name of the file
+  std::string message;  ///< the whole message after the file's name
   friend void PrintTo(const BadPly& bad, std::ostream* out) { *out << bad.name; }
 };
 

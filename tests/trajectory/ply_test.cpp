@@ -67,7 +67,7 @@ TEST(Ply, DeclaredTypeIsReadInAsciiToo) {
   EXPECT_EQ(x_of("int64", "-9223372036854775808"), -0x1p63);
 }
 
-/// A binary file in either byte order, put together value by value.
+/// Builds a binary file in either byte order, value by value.
 class BinaryPly {
  public:
   BinaryPly(std::endian order, const std::string& elements)
@@ -92,8 +92,8 @@ class BinaryPly {
 class PlyByteOrder : public ::testing::TestWithParam<std::endian> {};
 INSTANTIATE_TEST_SUITE_P(Both, PlyByteOrder, ::testing::Values(std::endian::little, std::endian::big));
 
-/// One vertex (1, 2, -3) with its coordinates of type T, and a face (0, 0, 0) with counts and indices of type T where
-/// it is an integer.
+/// Reads one vertex (1, 2, -3) with coordinates of type T, and a face (0, 0, 0). Its counts and indices have type T too
+/// if T is an integer type.
 template <class T>
 void expect_type(std::endian order, const std::string& type) {
   const std::string index = std::is_integral_v<T> ? type : "int";

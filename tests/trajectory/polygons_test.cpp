@@ -22,7 +22,7 @@ std::string obj(const std::vector<Position>& corners) {
   return text + face + "\n";
 }
 
-/// Of one polygon.
+/// The non-planarity of one polygon.
 double non_planarity(const std::vector<Position>& corners, double at_least = 0) {
   Polygons polygons;
   const Frame frame = parse_obj(obj(corners), "a.obj", &polygons);
@@ -61,7 +61,7 @@ TEST(Polygons, AreRefusedWhenAsked) {
 
 TEST(Polygons, FlatOnesHaveNone) {
   EXPECT_EQ(non_planarity({{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}}), 0);
-  // On x + y + z = 1, not along an axis; floating point may not tell.
+  // On x + y + z = 1, oblique to the axes, where floating point may not decide.
   EXPECT_EQ(non_planarity({{0.5, 0.25, 0.25}, {1, 0, 0}, {0.125, 0.75, 0.125}, {-7.25, 3, 5.25}}), 0);
   EXPECT_EQ(non_planarity({{1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}, {1e300, 0, 0}}), 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The readers on files that others made; skipped, visibly, where they are not there.
+// Tests the readers on files made by others; visibly skipped where the files are missing.
 #include "tests/support/real_data.h"
 #include "support.h"
 #include "trajectory/formats/file_info.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs that were spoiled, by chance (a flipped bit, a lost end) or with all checksums put right again.
+// Tests damaged runs: by chance (a flipped bit, a lost end), or with all checksums repaired.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -26,7 +26,7 @@ bool same(const RunWindow& a, const RunWindow& b) {
   return !a.lines || lines_hash(3, *a.lines) == lines_hash(3, *b.lines);
 }
 
-/// Whether `read` has all of `whole` but for the last windows.
+/// Whether `read` is the beginning of `whole`: the same scene and the first windows.
 ::testing::AssertionResult is_beginning(const ReadRun& read, const ReadRun& whole) {
   if (read.scene != whole.scene) return ::testing::AssertionFailure() << "another scene";
   if (read.windows.size() > whole.windows.size()) return ::testing::AssertionFailure() << "more windows";
@@ -58,7 +58,7 @@ TEST_P(DamagedRun, AFlippedBitIsNeverSilent) {
       ++errors;
     }
   }
-  // Only the last commit block can pass for one that was not written to its end.
+  // Only damage in the last commit block can look like an incomplete write.
   EXPECT_EQ(told, 8 * static_cast<int>(block_format::commit_size));
   EXPECT_EQ(errors + told, 8 * static_cast<int>(written.bytes.size()));
 }
@@ -120,7 +120,7 @@ struct Spoiled {
   const char* name;
   RecordMode record;
   void (*change)(std::vector<Block>&);
-  std::string message;  ///< what the error says after the place
+  std::string message;  ///< the error message after the place
   friend void PrintTo(const Spoiled& spoiled, std::ostream* out) { *out << spoiled.name; }
 };
 

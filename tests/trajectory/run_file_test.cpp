@@ -157,7 +157,7 @@ TEST(RunFileInAFolder, IsWrittenReadAndResumed) {
   EXPECT_EQ(test::read_text(trajectory_path(folder.path())), write_run(run).bytes);
 }
 
-/// What is not committed may be taken back while it is read.
+/// The writer may discard uncommitted windows while the run is read.
 TEST(RunFileInAFolder, IsReadWhileItGrows) {
   const test::TemporaryFolder folder;
   const SampleRun run = sample_run(3, RecordMode::full, 3);
@@ -247,7 +247,7 @@ TEST(RunFileInAFolder, IsWrittenByOneAtATime) {
   }
 }
 
-/// A window and a scene that fit, to be spoiled.
+/// A scene and a matching window, to be made invalid.
 struct Attempt {
   RunScene scene = sample_run(2, RecordMode::frames, 0).scene;
   OwnWindow window = sample_run(2, RecordMode::frames, 1).windows[0];

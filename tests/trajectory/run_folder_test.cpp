@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is in the folder of a run beside its motion: manifest, copy of the scene, log.
+// Tests the files of a run folder other than the motion: manifest, copy of the scene, log.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -95,14 +95,14 @@ TEST_P(RunManifestErrors, SayWhatAndWhere) {
   EXPECT_EQ(input_error([&] { read_manifest(folder.path()); }), file + ": " + GetParam().message);
 }
 
-/// Of a log: its entries.
+/// The entries of the log.
 std::vector<Json> entries(const test::TemporaryFolder& folder) {
   std::vector<Json> list;
   read_log_lines(folder.path(), [&list](const Json& entry) { list.push_back(entry); });
   return list;
 }
 
-/// A line and, made by another program, the CRC-32C of what is before ",\"crc32c\"".
+/// A log line. Another program computed the CRC-32C of the text before ",\"crc32c\"".
 constexpr const char* begin_line = "{\"event\":\"begin\",\"window\":0,\"crc32c\":\"ffad3c79\"}\n";
 
 TEST(RunLog, HasALineForEachEntryAcrossResumptions) {
@@ -120,14 +120,14 @@ TEST(RunLog, ALastLineThatWasCutOffIsRemoved) {
   for (std::size_t size = 0; size <= last.size(); ++size) {
     const test::TemporaryFolder folder;
     folder.write("log.jsonl", before + last.substr(0, size));
-    const bool whole = size + 1 >= last.size();  // but for its end, perhaps
+    const bool whole = size + 1 >= last.size();  // at most its newline is missing
     EXPECT_EQ(entries(folder).size(), whole ? 2 : 1) << size;
     RunLog(folder.path()).append({{"event", "c"}});
     EXPECT_EQ(test::read_text(folder / "log.jsonl"), before + (whole ? last : "") + log_line({{"event", "c"}}));
   }
 }
 
-/// Also the last byte, the end of the last line, is noticed.
+/// This includes the last byte, the newline of the last line.
 TEST(RunLog, AnyBitThatIsFlippedIsNoticed) {
   const std::string first = log_line({{"event", "begin"}, {"a", 1}}), last = log_line({{"event", "end"}, {"b", 2}});
   const std::string log = first + log_line({{"event", "window"}}) + last;
@@ -198,7 +198,7 @@ TEST(FolderLock, IsHadByOneAtATime) {
   EXPECT_THROW(FolderLock(folder / "absent"), std::system_error);
 }
 
-/// Whoever asks has the lock himself for a moment.
+/// is_locked() takes the lock for a moment.
 TEST(FolderLock, WaitsForThoseWhoOnlyAsk) {
   const test::TemporaryFolder folder;
   std::atomic<bool> done = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of block files and runs share: a file in memory that can be full, and runs made of a seed.
+// Helpers for tests of block files and runs: a file in memory that can be full, and random runs made from a seed.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class MemorySink : public Sink {
 
 inline std::unique_ptr<Sink> sink_to(MemoryFile& file) { return std::make_unique<MemorySink>(file); }
 
-/// The file with the blocks that `change` makes of its blocks, and with checksums and commits that fit.
+/// The file after `change` has edited its blocks, with correct checksums and commits.
 inline std::string changed(const std::string& bytes, const std::function<void(std::vector<Block>&)>& change) {
   std::vector<Block> blocks;
   BlockReader reader(bytes, "run", run_kind::content);
@@ -57,7 +57,7 @@ inline std::string changed(const std::string& bytes, const std::function<void(st
   return file.bytes;
 }
 
-/// A window with what it refers to.
+/// A window that owns the data it refers to.
 struct OwnWindow {
   std::uint64_t index;
   WorldLines lines;
@@ -84,7 +84,7 @@ inline std::vector<Position> random_positions(std::mt19937_64& random, std::size
   return all;
 }
 
-/// World lines from `begin` to `end` with up to three breakpoints inside, which start at these positions.
+/// World lines from `begin` to `end` that start at these positions, with up to three breakpoints inside.
 inline WorldLines random_lines(std::mt19937_64& random, double begin, double end, const std::vector<Position>& x,
                                std::uint32_t dimension) {
   std::vector<std::size_t> offsets{0};
@@ -107,7 +107,7 @@ inline std::vector<Position> ends_of(const WorldLines& lines) {
   return all;
 }
 
-/// For the sample: its edge is not compared with its face, nor with itself.
+/// Exclusions for the sample: its edge is not compared with its face, nor with itself.
 inline Exclusions sample_exclusions() { return {{0, 0, 0, 7, 7, 2}, {{0, 7}, {7, 7}}}; }
 
 /// A run of a face, a loose edge and a loose point, with windows of a quarter second.
@@ -140,7 +140,7 @@ inline void append(RunWriter& writer, const OwnWindow& window) {
   writer.commit();
 }
 
-/// The file of a run, and where each commit ends, that of the scene first.
+/// The file of a run, and the end of each commit, the scene's first.
 struct WrittenRun {
   std::string bytes;
   std::vector<std::size_t> commits;
@@ -159,7 +159,7 @@ inline WrittenRun write_run(const SampleRun& run) {
   return written;
 }
 
-/// What a reader gives of these bytes.
+/// Everything that a reader returns for these bytes.
 struct ReadRun {
   RunScene scene;
   std::vector<RunWindow> windows;

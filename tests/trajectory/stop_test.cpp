@@ -22,7 +22,7 @@
 namespace noli {
 namespace {
 
-/// Takes requests back with it.
+/// Requests a stop while it exists.
 struct Asked {
   explicit Asked(StopReason reason) { ask_to_stop(reason); }
   ~Asked() { forget_stops(); }
@@ -40,7 +40,7 @@ TEST(Stop, IsAskedForAndForgotten) {
     const Asked asked(StopReason::out_of_time);
     EXPECT_EQ(stop_asked(), StopReason::out_of_time);
     EXPECT_THROW(end_if_stopped(), Stopped);
-    ask_to_stop(StopReason::interrupted);  // the user comes first
+    ask_to_stop(StopReason::interrupted);  // the user takes precedence
     EXPECT_EQ(stop_asked(), StopReason::interrupted);
   }
   EXPECT_FALSE(stop_asked());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of the readers share.
+// Helpers for the tests of the readers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace noli::testing {
 
-/// What the InputError says that `f` throws; a test failure and "" when it throws none.
+/// The message of the InputError that `f` throws; a test failure and "" if it throws none.
 template <class F>
 std::string input_error(F&& f) {
   try {

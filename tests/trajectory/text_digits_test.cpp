@@ -30,7 +30,7 @@ TEST(TextDigits, BelowOneTheUnitStaysThatOfTheDecimals) {
 }
 
 TEST(TextDigits, SignificantDigitsAreCoarsestAtTheLargestNumber) {
-  // What %g gives of 6 digits: the last one of 1234.56 stands for 0.01, whatever small numbers have.
+  // Output of %g with 6 digits: the last digit of 1234.56 stands for 0.01, however fine the small numbers are.
   const TextDigits digits = of({"1234.56", "0.00123456", "0", "7", "1e-05"});
   EXPECT_EQ(digits.digits(), 6u);
   EXPECT_EQ(digits.unit(), -2);

@@ -48,7 +48,7 @@ _)" + points + connectivity + offsets + types +
 )");
 }
 
-/// The bytes that base64 text stands for; written from RFC 4648, to judge the writer.
+/// Decodes base64; written from RFC 4648, independently of the writer.
 std::string decoded(std::string_view text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
@@ -64,7 +64,7 @@ std::string decoded(std::string_view text) {
   return bytes;
 }
 
-/// The array that begins at `offset` behind the underscore: its length is its first eight bytes.
+/// The array that begins at `offset` after the underscore: its length is its first eight bytes.
 std::string appended_array(const std::string& file, std::size_t offset) {
   const std::size_t begin = file.find("<AppendedData encoding=\"base64\">\n_") + 34 + offset;
   std::uint64_t size = 0;

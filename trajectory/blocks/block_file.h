@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Append-only block files: what a run is written to as it is made. FORMAT.md has the bytes.
+// Append-only block files, to which a run is written while it is made. FORMAT.md has the bytes.
 //
 // Notation
-//   block     kind (four letters), length, payload, CRC-32C of these
+//   block     kind (four letters), length, payload, and the CRC-32C of these
 //   group     blocks and the commit block that closes them: a header, a window
-//   commit    the number of the group from 0, the SHA-256 of the group's bytes before it, and a running hash, which is
-//             the SHA-256 of the running hash before and this one. So the last commit stands for the whole file.
-//   open      blocks after the last commit: what a crash, a full disk or a kill leaves. Nobody vouches for them.
+//   commit    the number of the group from 0, the SHA-256 of the group's bytes before it, and a running hash: the
+//             SHA-256 of the previous running hash and this group's hash. So the last commit stands for the whole file.
+//   open      blocks after the last commit, left by a crash, a full disk or a kill. They do not count.
 //
-// A group is written, then synced to the disk, then its commit block is written and synced: whatever happens, the file
-// is good up to the end of a group. A file that ends in an open group is no error, but is told. One that is damaged
-// before its last commit block is an error.
+// A group is written and synced to the disk, then its commit block is written and synced. So whatever happens, the file
+// is good up to the end of a group. A file that ends in an open group is not an error, but readers can see it. Damage
+// before the last commit block is an error.
 //
-// What this does not do: it does not know what the blocks mean (run_file.h does for trajectories).
+// run_file.h gives the blocks of trajectories their meaning.
 #pragma once
 
 #include <cstdint>
@@ -59,11 +59,11 @@ std::string block_header(FourLetters kind, std::uint64_t length);
 /// Takes bytes that come in parts.
 using ByteConsumer = std::function<void(std::string_view)>;
 
-/// Gives a payload to a consumer, in as many parts as it likes.
+/// Passes a payload to a consumer, in any number of parts.
 using PayloadSource = std::function<void(const ByteConsumer&)>;
 
-/// Gives the bytes of a block, from its kind to its checksum. Throws std::logic_error when the payload has another
-/// length.
+/// Passes the bytes of a block to the consumer, from its kind to its checksum. Throws std::logic_error when the payload
+/// does not have this length.
 void put_block(FourLetters kind, std::uint64_t length, const PayloadSource& payload, const ByteConsumer& consumer);
 
 /// The end of a committed group.
@@ -79,13 +79,13 @@ struct CommitPoint {
 /// Hash of `a` and `b`, one after the other: the next running hash.
 Sha256Digest next_running_hash(const Sha256Digest& a, const Sha256Digest& b);
 
-/// Writes groups. All functions throw what the sink throws; then nothing more may be written but what resume() allows.
+/// Writes groups. All functions throw what the sink throws; after that the writer must not be used.
 class BlockWriter {
  public:
-  /// A new file; `content` says what it is about. Precondition: the sink is empty.
+  /// Begins a new file; `content` says what it is about. Precondition: the sink is empty.
   BlockWriter(std::unique_ptr<Sink> sink, FourLetters content);
-  /// Goes on after a commit, which BlockReader::committed() gave; what follows it is cut off. Precondition: it is one,
-  /// not the beginning of the file.
+  /// Goes on after a commit given by BlockReader::committed(), and cuts off what follows. Precondition: at least one
+  /// group is committed.
   BlockWriter(std::unique_ptr<Sink> sink, const CommitPoint& committed);
 
   void append(FourLetters kind, std::string_view payload);
@@ -109,11 +109,11 @@ class BlockWriter {
   std::uint64_t size_ = 0;  ///< of the file
 };
 
-/// What the headers of blocks say.
+/// The commits of a file, from the headers of its blocks alone.
 struct CommitLook {
   std::uint64_t count = 0;              ///< of commits
-  std::uint64_t last_group = 0;         ///< where the group begins that the last of them closes
-  std::optional<Sha256Digest> running;  ///< as one of them has it
+  std::uint64_t last_group = 0;         ///< offset of the group that the last commit closes
+  std::optional<Sha256Digest> running;  ///< the running hash of the commit that was asked for
 };
 
 struct Block {
@@ -124,34 +124,34 @@ struct Block {
   std::uint64_t payload_offset() const { return offset + block_format::block_header_size; }
 };
 
-/// Reads the blocks of a file, one after another; holds one at a time. A length is believed only when the file has as
+/// Reads the blocks of a file, one after another; holds one at a time. A length is accepted only if the file has that
 /// many bytes left.
 class BlockReader {
  public:
-  /// Throws InputError when the file cannot be opened, or does not begin as a block file about `content` of a version
-  /// that is known.
+  /// Throws InputError when the file cannot be opened, or does not begin as a block file about `content` in a known
+  /// version.
   BlockReader(const std::filesystem::path& path, FourLetters content);
   /// The same for bytes in memory; `name` is what errors call them.
   BlockReader(std::string bytes, std::string name, FourLetters content);
 
-  /// The next block, commit blocks included; nothing at the end of the file, or where its open group is torn. Whether
-  /// blocks belong to a group is known when its commit block comes. Throws InputError when a commit does not fit what
-  /// it closes, or a block is damaged although commits follow it. After an error the reader must not be used.
+  /// The next block, commit blocks included; nothing at the end of the file, or where its open group is torn. Blocks
+  /// count only once the commit block of their group follows. Throws InputError when a commit does not match its group,
+  /// or when a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
-  /// How many commit blocks the file has, by the headers of its blocks alone, and the running hash that the one which
-  /// closes this group, counted from 1, has. Nothing is checked.
+  /// Counts the commit blocks by the headers of all blocks, and gives the running hash of the commit that closes
+  /// `group` (from 1). Nothing is checked.
   CommitLook look_at_commits(std::uint64_t group = 0);
   /// The block at this place; nothing where it is damaged.
   std::optional<Block> look_at_block(std::uint64_t offset);
 
-  /// Whoever waits for more: the file as it is now, behind the last commit that next() passed; also after an error.
-  /// Precondition: there was a commit. Throws InputError when the file has become shorter than that.
+  /// For readers that wait for more: continues with the file as it is now, after the last commit that next() passed;
+  /// also after an error. Precondition: there was a commit. Throws InputError when the file has become shorter.
   void look_again();
 
   /// The end of the last commit that next() passed.
   const CommitPoint& committed() const { return committed_; }
-  /// Once next() gave nothing: where the open group begins, if the file ends in one.
+  /// After next() returned nothing: where the open group begins, if the file ends in one.
   std::optional<std::uint64_t> open_group() const;
   const std::string& name() const { return name_; }
 

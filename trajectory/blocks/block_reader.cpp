@@ -25,7 +25,7 @@ std::uint64_t size_of(std::istream& stream, const std::string& name) {
   return static_cast<std::uint64_t>(size);
 }
 
-/// The checksum at the end of `bytes`, which are a block or as long as one, is that of the rest.
+/// Whether the checksum at the end of `bytes`, a possible block, is that of the rest.
 bool checksum_fits(std::string_view bytes) {
   const std::string_view covered = bytes.substr(0, bytes.size() - block_format::checksum_size);
   return get<std::uint32_t>(bytes.data() + covered.size()) == crc32c(covered);
@@ -79,7 +79,7 @@ void BlockReader::fail(std::uint64_t offset, const std::string& problem) const {
   throw InputError(name_, byte_place(offset), problem);
 }
 
-/// Precondition: the file had as many bytes when it was opened.
+/// Precondition: the file had these bytes when it was opened.
 std::string BlockReader::read(std::uint64_t offset, std::uint64_t count) {
   std::string bytes(count, '\0');
   stream_->clear();
@@ -90,7 +90,7 @@ std::string BlockReader::read(std::uint64_t offset, std::uint64_t count) {
   return bytes;
 }
 
-/// Reads the bytes of a block. Returns what is wrong with them, if anything is.
+/// Reads the bytes of a block. Returns what is wrong with them, or nothing.
 std::optional<std::string> BlockReader::read_block(std::uint64_t offset, std::string& header, std::string& body) {
   using namespace block_format;
   const std::uint64_t left = size_ - offset;
@@ -108,7 +108,7 @@ std::optional<std::string> BlockReader::read_block(std::uint64_t offset, std::st
   return std::nullopt;
 }
 
-/// Whether there is a whole commit block at `from` or later: what comes before it was on the disk once.
+/// Whether there is a whole commit block at `from` or later. If so, everything before it was once on the disk.
 bool BlockReader::commit_follows(std::uint64_t from) {
   using namespace block_format;
   const std::string beginning = block_header(commit, commit_payload_size);

@@ -21,7 +21,7 @@ bool is_regular(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// Without waiting for the reader of a pipe.
+/// Does not wait for the reader of a pipe.
 int open_file(const std::string& name, FileSink::Open how) {
   const int flags = how == FileSink::Open::create ? O_CREAT | O_EXCL : 0;
   const int descriptor = ::open(name.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0666);
@@ -78,7 +78,7 @@ int open_folder(const std::filesystem::path& folder) {
 
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = open_folder(folder);
-  const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;  // some file systems have no such thing
+  const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;  // some file systems do not support it
   const int error = errno;
   ::close(descriptor);
   if (!synced) throw std::system_error(error, std::generic_category(), folder.empty() ? "." : folder.string());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a block file is written to.
+// Sinks, to which block files are written.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace noli {
 
-/// Bytes are appended. Each function throws std::system_error when it cannot do what it says (disk full, say); then
-/// some of the bytes may have been written.
+/// Appends bytes. Each function throws std::system_error when it fails (disk full, for example); some of the bytes may
+/// then have been written.
 class Sink {
  public:
   Sink() = default;
@@ -20,20 +20,20 @@ class Sink {
   Sink& operator=(const Sink&) = delete;
 
   virtual void write(std::string_view bytes) = 0;
-  /// Returns when what was written survives a loss of power.
+  /// Returns once everything written so far survives a loss of power.
   virtual void sync() = 0;
   /// Cuts off all but the first `size` bytes; what is written next follows them.
   virtual void truncate(std::uint64_t size) = 0;
 };
 
-/// A file, locked as long as this object lives: of two processes that write the same run the second is refused.
+/// A file, locked as long as this object lives, so that a second process cannot write to the same run.
 class FileSink : public Sink {
  public:
   enum class Open { create, existing };
 
-  /// create: the file must not be there yet; its folder is synced, so that the name survives too. A link is never
-  /// followed: its target may be anybody's. Throws std::system_error, naming the file; also when it is a link or no
-  /// regular file.
+  /// create: the file must not exist; its folder is synced, so that the name survives too. A link is never followed, as
+  /// its target may belong to somebody else. Throws std::system_error, naming the file; also for a link, or anything
+  /// else that is not a regular file.
   FileSink(const std::filesystem::path& path, Open how);
   ~FileSink() override;
 
@@ -48,8 +48,7 @@ class FileSink : public Sink {
   int descriptor_;
 };
 
-/// A descriptor of the folder, the current one where the name is empty; negative, with errno, where it cannot be
-/// opened.
+/// A descriptor of the folder; an empty name means the current folder. Negative, with errno, if it cannot be opened.
 int try_open_folder(const std::filesystem::path& folder);
 /// The same, but throws std::system_error.
 int open_folder(const std::filesystem::path& folder);

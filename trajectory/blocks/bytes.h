@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers as bytes, little-endian whatever the machine, and back with every read checked. Doubles are their IEEE 754
-// binary64 bits. Internal to the files of a run.
+// Converts numbers to and from bytes, little-endian on every machine. Doubles are their IEEE 754 binary64 bits.
+// Internal to the files of a run.
 #pragma once
 
 #include <bit>
@@ -42,7 +42,7 @@ T get(const char* bytes) {
   }
 }
 
-/// All numbers of an array, at once where the machine has them in this order.
+/// All numbers of an array, in one copy on little-endian machines.
 template <PlainNumber T>
 void put_all(std::string& out, std::span<const T> values) {
   if constexpr (std::endian::native == std::endian::little) {

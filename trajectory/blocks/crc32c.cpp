@@ -22,8 +22,7 @@ constexpr std::uint32_t divide_byte(std::uint32_t remainder) {
   return remainder;
 }
 
-/// tables[k][b]: what byte b contributes when k more bytes follow it, so that eight bytes cost eight look-ups that do
-/// not wait for each other.
+/// tables[k][b]: what byte b contributes when k more bytes follow it. So eight bytes take eight independent look-ups.
 constexpr std::array<Table, 8> make_tables() {
   std::array<Table, 8> tables{};
   for (std::uint32_t b = 0; b < 256; ++b) tables[0][b] = divide_byte(b);

@@ -23,14 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the name still leads to the folder that was opened: another process may have put a new one there.
+/// Whether the name still refers to the folder that was opened: another process may have put a new one there.
 bool is_there(int descriptor, const fs::path& folder) {
   struct stat opened = {}, named = {};
   return ::fstat(descriptor, &opened) == 0 && ::stat(folder.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
 
-/// Who has the lock alone, as /proc/locks tells it: "1: FLOCK  ADVISORY  WRITE 123 08:01:456 0 EOF".
+/// The process that holds the exclusive lock, from /proc/locks: "1: FLOCK  ADVISORY  WRITE 123 08:01:456 0 EOF".
 std::optional<int> holder(int descriptor) {
   struct stat status = {};
   if (::fstat(descriptor, &status) != 0) return std::nullopt;
@@ -58,7 +58,7 @@ Attempt lock(int descriptor, int how) {
   return Attempt::locked;
 }
 
-/// is_locked() has the lock for a moment, together with others: that is no writer, and is waited for.
+/// is_locked() in another process holds a shared lock for a moment. That is not a writer, so this waits for it.
 int lock_folder(const fs::path& folder) {
   using Clock = std::chrono::steady_clock;
   const auto patience = Clock::now() + std::chrono::milliseconds(400);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Of several processes that write to one folder, one at a time: flock(2) on the folder itself, so that no file is left
-// behind and a kill ends it.
+// Lets only one process at a time write to a folder. It uses flock(2) on the folder itself, so no file is left behind,
+// and a kill releases the lock.
 //
-// What this does not do: where a file system locks no folders, nobody is refused here. The files of a run have locks of
-// their own (block_sink.h).
+// On file systems that cannot lock folders it refuses nobody. The files of a run have locks of their own
+// (block_sink.h).
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@
 
 namespace noli {
 
-/// Another process has it. what(): "FOLDER: is being written by process 123", or "by another process" where that is not
-/// known.
+/// Another process has the lock. what(): "FOLDER: is being written by process 123", or "by another process" if its
+/// number is unknown.
 struct FolderLocked : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Has the folder as long as this object lives.
+/// Holds the lock as long as this object lives.
 class FolderLock {
  public:
-  /// Precondition: the folder is there. Throws FolderLocked, within half a second; std::system_error when the folder
+  /// Precondition: the folder exists. Throws FolderLocked, within half a second; std::system_error when the folder
   /// cannot be opened.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
@@ -32,7 +32,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Whether somebody has it now. False where that cannot be known.
+/// Whether somebody holds the lock now; false if that cannot be known.
 bool is_locked(const std::filesystem::path& folder);
 
 }  // namespace noli

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold between the windows of a run and within one. Whoever writes a run keeps to it (or the program is at
-// fault), whoever reads one checks it (or the file is). Internal to run_file.h.
+// Checks what must hold within a window of a run and between windows. A failure in writing is a fault of the program, a
+// failure in reading one of the file. Internal to run_file.h.
 //
-// Each function gives "" when all is well, else what is wrong.
+// A function that returns a string gives "" if all is well, otherwise what is wrong.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ namespace noli {
 bool same_bits(double a, double b);
 bool same_bits(const Position& a, const Position& b);
 
-/// Whether the vertices of each cell are of one group. Precondition: a group for each vertex.
+/// Whether all vertices of each cell have the same group. Precondition: a group for each vertex.
 bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups);
 
 std::vector<Position> positions_at_end(const WorldLines& lines);
 std::uint64_t count_breakpoints(const WorldLines& lines);
 
-/// A window that begins at this time goes on from the one before.
+/// Whether a window that begins at this time continues the previous one.
 std::string time_problem(const WindowEnd& before, double begin);
-/// ... with the first positions of these.
+/// Whether the first positions of these lines continue the previous window.
 std::string position_problem(const WindowEnd& before, const WorldLines& lines);
 
-/// Frames ascend in time. Those of window 0 are in [begin, end], those of later ones in (begin, end], so that each
-/// moment belongs to one window; one at the end has the positions there.
+/// Frames must ascend in time. Those of window 0 are in [begin, end], those of later windows in (begin, end], so that
+/// each moment belongs to one window. A frame at the end must have the positions there.
 std::string frames_problem(std::uint64_t index, double begin, const WindowEnd& end, std::span<const RunFrame> frames);
 
 }  // namespace noli

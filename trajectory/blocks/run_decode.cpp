@@ -12,7 +12,7 @@
 namespace noli::run_block {
 namespace {
 
-/// Takes a payload apart from its beginning; errors name the place of what was taken last.
+/// Decodes a payload from its beginning; errors name the place of the last item.
 class Payload {
  public:
   explicit Payload(const Source& source) : source_(source) {}
@@ -20,7 +20,8 @@ class Payload {
   [[noreturn]] void fail(const std::string& problem) const { fail_at(last_, problem); }
   std::uint64_t left() const { return source_.block.payload.size() - at_; }
 
-  /// Fails unless exactly `count` items of `size` bytes are left. Nothing overflows: count is compared, not multiplied.
+  /// Fails unless exactly `count` items of `size` bytes are left. It cannot overflow: count is compared, not
+  /// multiplied.
   void require(std::uint64_t count, std::uint64_t size, const char* what) {
     last_ = at_;
     if (left() % size == 0 && left() / size == count) return;
@@ -52,7 +53,8 @@ class Payload {
     return value;
   }
 
-  /// All that is left, as vectors of `dimension` coordinates; not looked at yet. Precondition: require() has said so.
+  /// The rest, as vectors of `dimension` coordinates; their values are not checked. Precondition: require() has checked
+  /// the size.
   std::vector<Position> vectors(std::uint32_t dimension) {
     std::vector<Position> all(left() / (dimension * sizeof(double)), Position{});
     if (dimension == 3) {
@@ -62,7 +64,7 @@ class Payload {
     }
     return all;
   }
-  /// The same, and there is a finite position for each vertex.
+  /// The same; fails unless there is a finite vector for each vertex.
   std::vector<Position> finite_vectors(std::uint32_t dimension, std::size_t vertex_count) {
     require(vertex_count, dimension * sizeof(double), "the vectors of all vertices");
     std::vector<Position> all = vectors(dimension);

@@ -11,7 +11,8 @@ void put_positions(std::string& out, std::uint32_t dimension, std::span<const Po
   for (const Position& x : positions) put_all(out, std::span<const double>(x).first(2));
 }
 
-/// Gathers bytes until it is worth while to hand them on, and while they are still in the processor's cache.
+/// Collects bytes and passes them on in parts that are large enough to be efficient and still fit the processor's
+/// cache.
 class Parts {
  public:
   explicit Parts(const ByteConsumer& consumer) : consumer_(consumer) {}

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The motion that a run writes: `trajectory.blocks` in its folder. FORMAT.md has the bytes; they depend on nothing but
-// what is given here.
+// Reads and writes the motion of a run: `trajectory.blocks` in its folder. FORMAT.md has the bytes; they depend only on
+// what is passed in here.
 //
 // Notation
-//   window k       the motion from begin to end, k = 0, 1, ...; the end of one is the beginning of the next, bit for
-//                  bit, in time and in every position. Messages count windows from 1
+//   window k       the motion from begin to end, k = 0, 1, ...; it begins where the previous one ended, bit for bit, in
+//                  time and in every position. Messages count windows from 1
 //   record full    every world line is kept
-//   record frames  of each window only the hash of its world lines, frames, and the state at its end, from which it can
-//                  be computed again
+//   record frames  each window keeps only the hash of its world lines, its frames, and the state at its end, from which
+//                  the next one can be computed again
 //
-// What this does not do: it does not look for contact. Who writes a window has verified it.
+// Nothing here looks for contact: verify windows before you write them.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ struct RunFrame {
   friend bool operator==(const RunFrame&, const RunFrame&) = default;
 };
 
-/// A window to be written. Velocities are metres per second, those from which a run goes on; `state` is what else it
-/// needs, in bytes that only its writer understands.
+/// A window to be written. A run goes on from its velocities [m/s] and from `state`, bytes that only their writer
+/// understands.
 struct WindowToWrite {
   std::uint64_t index = 0;
   const WorldLines& lines;
@@ -82,7 +82,7 @@ struct RunWindow {
   Sha256Digest group_hash{};  ///< of its group in the file
 };
 
-/// Where a window leaves everything.
+/// The end of a window.
 struct WindowEnd {
   double time = 0;
   std::vector<Position> positions;  ///< one per vertex
@@ -96,14 +96,14 @@ std::filesystem::path trajectory_path(const std::filesystem::path& run_folder);
 void put_lines_block(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 Sha256Digest lines_hash(std::uint32_t dimension, const WorldLines& lines);
 
-/// What somebody else, as the log of a run, knows of its windows.
+/// What is known about the windows of a run from elsewhere, such as its log.
 struct KnownWindows {
   std::uint64_t count = 0;
-  std::optional<Sha256Digest> running;  ///< the running hash behind the last of them
-  bool made_again = false;              ///< whoever reads makes those that are missing again
+  std::optional<Sha256Digest> running;  ///< the running hash after the last of them
+  bool made_again = false;              ///< the reader makes missing windows again
 };
 
-/// How many windows a run seems to have, and how far they seem to go.
+/// How many windows a run appears to have, and until when.
 struct RunLook {
   std::uint64_t windows = 0;
   std::optional<double> end;  ///< [s]; empty if there is no window, or the last one is damaged
@@ -117,31 +117,31 @@ class RunReader;
 ///   writer.commit();
 class RunWriter {
  public:
-  /// Makes trajectory.blocks in a folder that is there and has none; what does not change is committed at once. Throws
-  /// std::system_error when the disk does not take it, std::logic_error when the scene breaks what RunScene says.
+  /// Creates trajectory.blocks in an existing folder that has none, and commits the scene. Throws std::system_error
+  /// when writing fails, std::logic_error when the scene breaks what RunScene requires.
   RunWriter(const std::filesystem::path& folder, const RunScene& scene);
   /// The same into a sink.
   RunWriter(std::unique_ptr<Sink> sink, const RunScene& scene);
 
-  /// Goes on behind the last committed window, cutting off what follows. Precondition: reader.next_window() has given
+  /// Goes on after the last committed window, and cuts off what follows. Precondition: reader.next_window() returned
   /// nothing. Throws std::system_error.
   RunWriter(const std::filesystem::path& folder, const RunReader& reader);
   RunWriter(std::unique_ptr<Sink> sink, const RunReader& reader);
 
-  /// Writes a window; it does not count before commit(). Throws std::system_error, and std::logic_error when the window
-  /// is not the one that follows the last committed, bit for bit, or sizes do not fit. After a std::system_error
-  /// nothing more may be written; what is committed stays.
+  /// Writes a window, which does not count before commit(). Throws std::system_error, and std::logic_error when the
+  /// window does not continue the last committed one bit for bit, or sizes do not fit. After a std::system_error
+  /// nothing more may be written; committed windows stay.
   void append_window(const WindowToWrite& window);
-  /// Commits the window written last; after this it survives a loss of power.
+  /// Commits the last window written; from then on it survives a loss of power.
   void commit();
   /// The hash that commit() will write for the window that was written.
   Sha256Digest open_window_hash() const { return blocks_.open_group_hash(); }
-  /// Takes back the window that was written and not committed.
+  /// Drops the window that was written and not committed.
   void discard_window();
 
   /// Number of committed windows.
   std::uint64_t windows() const { return blocks_.committed().groups - 1; }
-  /// Hash of all that is committed.
+  /// Hash of everything committed.
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
 
  private:
@@ -151,7 +151,7 @@ class RunWriter {
   BlockWriter blocks_;
   RunHeader header_;
   std::size_t vertex_count_;
-  std::optional<WindowEnd> last_, open_;  ///< of the last committed window, of the one that is not
+  std::optional<WindowEnd> last_, open_;  ///< of the last committed window; of the one written but not committed
 };
 
 /// Reads a run, one window at a time.
@@ -171,24 +171,24 @@ class RunReader {
   const RunScene& scene() const { return scene_; }
 
   /// The next committed window; nothing when there is none. Throws InputError, with the place in the file, when
-  /// anything in it is not as FORMAT.md says, or it does not begin where the one before ended. After an error the
-  /// reader must not be used but for look_again().
+  /// anything in it breaks FORMAT.md, or it does not begin where the previous one ended. After an error only
+  /// look_again() may be called.
   std::optional<RunWindow> next_window();
 
-  /// Once next_window() gave nothing: where the file goes on with a window that was never committed, if it does. That
-  /// is no error, but whoever reads the run should be told: open_window_message().
+  /// After next_window() returned nothing: where a window begins that was never committed, if there is one. That is not
+  /// an error, but tell the user with open_window_message().
   std::optional<std::uint64_t> open_window() const { return blocks_.open_group(); }
   /// "FILE: ends in an open window at byte N". Precondition: open_window().
   std::string open_window_message() const;
 
-  /// From now on next_window() throws InputError, too, when the file ends before it has these windows, or has another
-  /// hash behind the last of them; so does this, when that one has just been read.
+  /// From now on next_window() also throws InputError when the file ends before it has these windows, or has another
+  /// hash after the last of them; so does this function if that window was read last.
   void expect(const KnownWindows& known);
-  /// Throws what next_window() would as far as a quick look tells, which reads no window and checks no checksum.
+  /// Throws what next_window() would, as far as a quick look can tell. It reads no window and checks no checksum.
   void look_for_expected();
 
-  /// Once next_window() gave nothing, or an error while the run was written: goes on with the file as it is now. Throws
-  /// InputError when it has become shorter than what was read.
+  /// After next_window() returned nothing, or threw because the run was being written: goes on with the file as it is
+  /// now. Throws InputError when it has become shorter than what was read.
   void look_again() { blocks_.look_again(); }
 
   /// How many windows have been read.

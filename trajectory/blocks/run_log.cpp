@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// No other member of a line has it in front: within a text of JSON the quotes would be escaped.
+/// Occurs nowhere else in a line: within a JSON string the quotes would be escaped.
 constexpr std::string_view seal_begin = R"(,"crc32c":")";
 constexpr std::size_t seal_size = seal_begin.size() + 8 + 2;
 
@@ -29,11 +29,10 @@ std::string seal(std::string_view members) { return fmt::format("{}{:08x}\"}}", 
 
 std::filesystem::path log_path(const std::filesystem::path& folder) { return folder / "log.jsonl"; }
 
-/// What there is in the file.
 struct Extent {
   std::uint64_t lines = 0;
   std::uint64_t size = 0;    ///< of whole lines [bytes]
-  bool end_missing = false;  ///< of the last of them
+  bool end_missing = false;  ///< the last line lacks its line end
 };
 
 class Scan {
@@ -51,7 +50,7 @@ class Scan {
   }
 
  private:
-  /// A line that is cut off has not come to the end of its checksum, or just lacks its own end.
+  /// A line that is cut off ends before the end of its checksum, or lacks only its line end.
   void take_tail(const std::string& line) {
     const std::size_t at = line.find(seal_begin);
     if (at == std::string::npos || line.size() < at + seal_size) return;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The payloads of the blocks of a run, to bytes and back. Internal to run_file.h; FORMAT.md has the bytes.
+// Converts the payloads of a run's blocks to and from bytes. Internal to run_file.h; FORMAT.md has the bytes.
 //
-// encode_X gives a payload and trusts what it is given; decode_X checks all that can be seen in the block itself and
-// throws InputError with the place in the file.
+// encode_X trusts its arguments. decode_X checks everything that the block alone can show, and throws InputError with
+// the place in the file.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/run_file.h"
 
-/// What a run's files are about, and the kinds of blocks in trajectory.blocks.
+/// The content of a run's block file, and the kinds of its blocks.
 namespace noli::run_kind {
 inline constexpr FourLetters content = four_letters("TRAJ");
 inline constexpr FourLetters head = four_letters("HEAD");
@@ -37,7 +37,7 @@ std::string encode_mesh(const Mesh& mesh);
 std::string encode_labels(std::span<const std::uint8_t> labels);
 std::string encode_exclusions(const Exclusions& exclusions);
 std::string encode_window(std::uint64_t index, double begin, double end);
-/// World lines can be too many to be in memory twice.
+/// Passes world lines on in parts, as they may be too many to be in memory twice.
 std::uint64_t encoded_lines_size(std::uint32_t dimension, const WorldLines& lines);
 void encode_lines(std::uint32_t dimension, const WorldLines& lines, const ByteConsumer& consumer);
 std::string encode_vectors(std::uint32_t dimension, std::span<const Position> vectors);
@@ -53,9 +53,9 @@ struct Source {
 RunHeader decode_head(const Source& source);
 Mesh decode_mesh(const Source& source);
 std::vector<std::uint8_t> decode_labels(const Source& source, std::size_t vertex_count);
-/// `mesh`: whose vertices and cells they are about.
+/// `mesh`: the mesh to which they apply.
 Exclusions decode_exclusions(const Source& source, const Mesh& mesh);
-/// A window whose index and times are set.
+/// A window with only its index and times.
 RunWindow decode_window(const Source& source);
 WorldLines decode_lines(const Source& source, std::uint32_t dimension, std::size_t vertex_count);
 std::vector<Position> decode_vectors(const Source& source, std::uint32_t dimension, std::size_t vertex_count);

@@ -27,7 +27,7 @@ std::vector<FourLetters> successors(FourLetters before, RecordMode record) {
   }
 }
 
-/// Whether every world line begins and ends at just these times.
+/// Whether every world line begins and ends at exactly these times.
 bool spans(const WorldLines& lines, double begin, double end) {
   for (VertexId v = 0; v < lines.vertex_count(); ++v) {
     if (!same_bits(lines.times(v).front(), begin) || !same_bits(lines.times(v).back(), end)) return false;
@@ -35,7 +35,7 @@ bool spans(const WorldLines& lines, double begin, double end) {
   return true;
 }
 
-/// Where the motion is. What has none was never a run, so no name of a file within helps.
+/// The path of the motion. A folder without it was never a run, so the error names the folder and not the file.
 std::filesystem::path require_trajectory(const std::filesystem::path& folder) {
   std::filesystem::path path = trajectory_path(folder);
   std::error_code error;

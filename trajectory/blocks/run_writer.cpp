@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* file_name = "trajectory.blocks";
 
-/// What this file is given comes from this program: a fault in it is a fault of the program, not of any input.
+/// The arguments come from this program, so a fault in them is a fault of the program, not of an input.
 void require(bool holds, const std::string& problem) {
   if (!holds) throw std::logic_error("what was to be written to a run: " + problem);
 }

@@ -12,8 +12,8 @@
 namespace noli {
 namespace {
 
-/// What follows the text (FIPS 180-4, 5.1.1): a one bit, zeros up to eight bytes before a border of 64, the size in
-/// bits.
+/// The padding after the text (FIPS 180-4, section 5.1.1): a one bit, zeros up to eight bytes before a multiple of 64,
+/// and the size in bits.
 std::string padding(std::uint64_t size) {
   std::string bytes(1 + (119 - size % 64) % 64, '\0');
   bytes[0] = static_cast<char>(0x80);

@@ -17,7 +17,7 @@ using Sha256Digest = std::array<std::uint8_t, 32>;
 ///   Sha256 hash;
 ///   hash.update(a);
 ///   hash.update(b);
-///   hash.digest()   that of ab; more may follow
+///   hash.digest()   the hash of ab; more may follow
 class Sha256 {
  public:
   void update(std::string_view bytes);
@@ -35,7 +35,7 @@ Sha256Digest sha256(std::string_view bytes);
 /// 64 hexadecimal digits in lower case.
 std::string hex(const Sha256Digest& digest);
 
-/// What hex() wrote; nothing for any other text.
+/// The digest that hex() wrote as this text; nothing for any other text.
 std::optional<Sha256Digest> digest_of_hex(std::string_view text);
 
 /// The bytes of a digest, for writing and hashing.

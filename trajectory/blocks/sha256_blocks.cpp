@@ -74,7 +74,7 @@ bool has_sha_instructions() {
 
 namespace {
 
-/// The state as the instructions keep it: the words a b e f and c d g h, the first of each highest.
+/// The state in the layout of the instructions: the words a b e f and c d g h, the first of each highest.
 struct Halves {
   __m128i abef, cdgh;
 };

@@ -2,8 +2,8 @@
 //
 // The compression function of SHA-256 (FIPS 180-4, section 6.2.2). Internal to sha256.cpp and its tests.
 //
-// Two ways to the same result: plain C++, and the processor's instructions for it where there are any (nine times as
-// fast; a run hashes every breakpoint it records).
+// There are two implementations: plain C++, and the processor's instructions for SHA-256 (nine times as fast). A run
+// hashes every breakpoint that it records.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace noli {
 
 using Sha256State = std::array<std::uint32_t, 8>;
 
-/// Takes whole blocks of 64 bytes into the state; the faster way that this processor has.
+/// Adds whole blocks of 64 bytes to the state, in the fastest way that this processor has.
 void sha256_blocks(Sha256State& state, std::string_view blocks);
 
 void sha256_blocks_plain(Sha256State& state, std::string_view blocks);
 
-/// Whether this processor has the instructions, and the way by them. Precondition of the latter: the former.
+/// Whether this processor has the instructions; and the implementation with them, whose precondition this is.
 bool has_sha_instructions();
 void sha256_blocks_by_instructions(Sha256State& state, std::string_view blocks);
 

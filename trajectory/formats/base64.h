@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bytes as text: RFC 4648, section 4.
+// Encodes bytes as text in base64 (RFC 4648, section 4).
 #pragma once
 
 #include <string>

@@ -84,14 +84,14 @@ FileInfo describe_frame(const Frame& frame) {
 FileInfo describe_file(const std::filesystem::path& path) {
   const std::string bytes = read_whole_file(path);
   FileInfo info = describe_frame(parse_frame(bytes, path));
-  if (!bytes.starts_with("ply")) {  // an OBJ file that begins so has been refused
+  if (!bytes.starts_with("ply")) {  // an OBJ file that begins with "ply" has been refused
     info.format = "OBJ";
     info.number_type = "decimal";
     return info;
   }
   const PlyHeader header = parse_ply_header(bytes, path.string());
   info.format = ply_format_name(header.format);
-  info.number_type = number_type(*header.find("vertex"));  // parse_frame has seen it
+  info.number_type = number_type(*header.find("vertex"));  // parse_frame has checked that it is there
   return info;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The same fault, and which frame it is in.
+/// The same error, with the number of the frame.
 InputError of_frame(const InputError& error, const std::string& path, std::size_t k, std::size_t count) {
   std::string problem = error.what();
   const std::string begin = on_one_line(path) + ": ";
@@ -96,7 +96,7 @@ std::optional<Frame> FrameInputs::read(std::size_t k) {
 
 void FrameInputs::take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons) {
   if (!facts_[k].looked_at) facts_[k] = look_at_frame(bytes, facts_[k].file).facts;
-  // Those that were looked at have the same cells, or are found to have others before they are used.
+  // Frames that were looked at have the same cells; if not, an error follows before they are used.
   for (FrameFacts& facts : facts_) {
     if (facts.looked_at) facts.cells = frame.mesh.cell_count();
   }

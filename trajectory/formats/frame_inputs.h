@@ -6,10 +6,9 @@
 //   for (std::size_t k = 0; k < paths.size(); ++k) inputs.look_at(k);
 //   FrameSequence sequence(inputs, motion);
 //
-// In memory: the file of one frame, and the cells of one mesh where files spell the same cells differently.
+// In memory: the file of one frame, and the cells of one mesh if files spell the same cells differently.
 //
-// What this does not do: it opens nothing but regular files before they are read. A look would take its content from a
-// pipe.
+// look_at() opens only regular files: a look would consume the content of a pipe.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +29,8 @@ namespace noli {
 
 class FrameInputs : public FrameSource {
  public:
-  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; it ends with "(frame 11 of 12)".
+  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; the message ends with "(frame 11 of
+  /// 12)".
   explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
 
   std::optional<std::size_t> count() const override { return facts_.size(); }
@@ -62,7 +62,7 @@ class FrameInputs : public FrameSource {
 
   PolygonRule rule_;
   std::vector<FrameFacts> facts_;
-  std::optional<std::size_t> first_;             ///< the frame that others are compared with
+  std::optional<std::size_t> first_;             ///< the frame with which others are compared
   std::set<std::optional<std::uint64_t>> same_;  ///< spellings of its cells
   std::optional<Mesh> mesh_;                     ///< its cells, once they had to be parsed
   std::vector<bool> read_;                       ///< of each frame

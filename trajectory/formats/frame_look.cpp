@@ -18,7 +18,7 @@
 namespace noli {
 namespace {
 
-/// A hash for this process alone.
+/// A hash of the spelling of cells; valid only within this process.
 class Spelling {
  public:
   void add(std::string_view text) { add(static_cast<std::uint64_t>(std::hash<std::string_view>{}(text))); }
@@ -29,14 +29,14 @@ class Spelling {
   std::uint64_t hash_ = 0;
 };
 
-/// Whether text with so many digits may have been rounded.
+/// Notes the digits of the text in `facts`, and whether it may have been rounded: it has fewer digits than `enough`.
 void take_digits(const TextDigits& digits, std::size_t enough, FrameFacts& facts) {
   facts.numbers = digits.text();
   facts.decimals = digits.decimals();
   if (digits.digits() < enough) facts.rounded_at = digits.unit();
 }
 
-/// The cells of an OBJ file. Where indices count back, what they mean depends on how many vertices came before.
+/// The cells of an OBJ file. The meaning of negative indices depends on how many vertices came before.
 std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& facts) {
   TextDigits digits;
   Spelling cells;
@@ -112,7 +112,7 @@ class PlyLook {
   }
 
  private:
-  /// All of it but the types of what vertices have.
+  /// All of the header except the types of the vertices' properties.
   void add_header(const PlyElement& vertex) {
     cells_.add(static_cast<std::uint64_t>(header_.format));
     for (const PlyElement& element : header_.elements) {
@@ -131,7 +131,7 @@ class PlyLook {
     return std::ranges::any_of(element.properties, [](const PlyProperty& p) { return p.count_type.has_value(); });
   }
 
-  /// False where vertices are not to be found without parsing what is before them, or there are not so many.
+  /// False if the vertices cannot be found without parsing what precedes them, or the file has too few bytes for them.
   bool skip_bytes(const PlyElement& vertex) {
     std::uint64_t before = 0;
     for (const PlyElement& element : header_.elements) {
@@ -149,7 +149,7 @@ class PlyLook {
     return false;
   }
 
-  /// The columns of x, y and z, where they are decimal.
+  /// The columns of those of x, y and z that are decimal.
   std::vector<std::size_t> columns(const PlyElement& vertex) const {
     std::vector<std::size_t> found;
     for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
@@ -197,7 +197,7 @@ class PlyLook {
   }
 
   void take_text(const PlyElement& vertex, const std::vector<std::size_t>& wanted, const TextDigits& digits) {
-    if (wanted.empty()) return;  // whole numbers are what they are
+    if (wanted.empty()) return;  // integers are not rounded
     const bool all_single =
         std::ranges::all_of(wanted, [&](std::size_t p) { return vertex.properties[p].type == PlyType::float32; });
     take_digits(digits, all_single ? digits_of_float32 : digits_of_float64, facts_);
@@ -283,7 +283,7 @@ void TextDigits::add(std::string_view word) {
 
 std::optional<int> TextDigits::unit() const {
   if (!any_) return std::nullopt;
-  // 0.000001 beside 4: no notation with so few digits writes that, but a fixed number of decimals.
+  // 0.000001 next to 4: only a fixed number of decimals writes both with so few digits.
   const bool fixed = least_decimals_ && *least_decimals_ == decimals_ && digits_ < decimals_;
   if (!largest_ || fixed) return -static_cast<int>(decimals_);
   return *largest_ - static_cast<int>(digits_) + 1;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick look at the bytes of a frame: counts, number type, and whether its cells are spelled as those of another. It
-// takes a small part of the time that parsing takes.
+// Takes a quick look at the bytes of a frame: counts, number type, and whether its cells are spelled like those of
+// another frame. It takes a small part of the time of parsing.
 //
-//   OBJ          lines that begin with v, f, l and p; the text of the last three is what is compared
+//   OBJ          lines that begin with v, f, l and p; the text of the last three is compared
 //   PLY, ASCII   the header, and all lines but those of vertices
 //   PLY, binary  the header, and all bytes but those of vertices
 //
-// What this does not do: it finds no fault in a coordinate or an index, and other spellings of the same cells (with
-// texture indices, say) differ for it. Who needs to know parses the frame.
+// It does not check coordinates and indices. Different spellings of the same cells (with texture indices, for example)
+// count as different; only parsing can tell.
 #pragma once
 
 #include <cstddef>
@@ -27,31 +27,30 @@ namespace noli {
 struct FrameLook {
   FrameFacts facts;
   /// Equal for equal counts of vertices and equal spellings of cells; different spellings almost surely differ. Nothing
-  /// where cells can only be found by parsing.
+  /// if only parsing can find the cells.
   std::optional<std::uint64_t> cells;
 };
 
 /// The hash of the bytes of a file. Throws Stopped.
 Sha256Digest frame_hash(std::string_view bytes);
 
-/// Throws InputError for a header of a PLY file that is not as it has to be, and for other extensions; Stopped.
+/// Throws InputError for a malformed header of a PLY file and for other extensions; Stopped.
 FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path);
 
-/// Of any file: bytes and hash alone. It is read part by part, until `stop` says true. Throws InputError,
-/// ReadInterrupted.
+/// The size and hash of any file. Reads it part by part, until `stop` returns true. Throws InputError, ReadInterrupted.
 FrameFacts file_facts(const std::filesystem::path& path, const std::function<bool()>& stop = {});
 
-/// How finely decimal text gives coordinates: what rounding to that text may have moved. It cannot be known whether
-/// numbers were rounded: 0.5 may be a half, or 0.46 with one decimal.
-///   digits     of one number: from its first digit that is not 0 to its last one, zeros at the end included; the most
-///              of all numbers is what the text is said to have
-///   decimals   of one number: digits behind the point, where an exponent moves it; the most of all numbers
-///   unit       10^k. The place of the last of so many digits in the number of the largest magnitude: with %.6f 10^-6;
-///              with %g or %e that of the coarsest coordinate. Where all numbers with decimals have as many, and more
-///              than there are digits (0.000001 beside 4), it is the place of the last decimal
+/// How finely decimal text gives coordinates, that is, how far rounding to that text may have moved them. Whether
+/// numbers were rounded cannot be known: 0.5 may be a half, or 0.46 with one decimal.
+///   digits     of one number: from its first nonzero digit to its last one, zeros at the end included. The text has
+///              the largest count of all numbers
+///   decimals   of one number: digits after the point, as an exponent moves it; the largest count of all numbers
+///   unit       10^k: the place of the last of `digits` digits in the number of the largest magnitude. With %.6f it is
+///              10^-6; with %g or %e that of the coarsest coordinate. If all numbers with decimals have equally many,
+///              and more than there are digits (0.000001 next to 4), it is the place of the last decimal
 class TextDigits {
  public:
-  /// Takes one word of a file. Words that are no numbers count nothing.
+  /// Takes one word of a file. Words that are not numbers are ignored.
   void add(std::string_view word);
 
   std::size_t digits() const { return digits_; }
@@ -68,7 +67,7 @@ class TextDigits {
   bool any_ = false;
 };
 
-/// So many digits tell every float64, or float32, from all others: text that has them need not have been rounded.
+/// This many digits distinguish every float64, or float32, from all others, so text that has them need not be rounded.
 inline constexpr std::size_t digits_of_float64 = 17, digits_of_float32 = 9;
 
 }  // namespace noli

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 // --- The numbers in a name: found, kept without rounding, compared --------------------------------------------------
 
-/// 0.DIGITS 10^exponent, with a sign. DIGITS neither begins nor ends with 0; none: the number is zero.
+/// 0.DIGITS 10^exponent, with a sign. DIGITS neither begins nor ends with 0; it is empty if the number is zero.
 struct NameNumber {
   bool negative = false;
   std::int64_t exponent = 0;
@@ -48,13 +48,13 @@ struct NumberedName {
   std::string pattern;                 ///< the name with each number replaced
   std::vector<NameNumber> decimals;    ///< `12.5` is one number
   std::vector<NameNumber> integers;    ///< `12.5` is two numbers; the same pattern
-  std::vector<std::string> fractions;  ///< digits behind a point that may be decimal
-  bool has_exponent = false;           ///< 1e-05: there is only one way to read it
+  std::vector<std::string> fractions;  ///< digits after a point that may be decimal
+  bool has_exponent = false;           ///< as in 1e-05, which can be read in only one way
 };
 
 /// Stands for a number in a pattern; no path contains it.
 constexpr char number_sign = '\0';
-/// Exponents with more digits than these are text: nobody writes them.
+/// Exponents with more digits count as text.
 constexpr std::size_t most_exponent_digits = 6;
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -100,7 +100,7 @@ class Parser {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// At the point of `12.5`, and not of `1.2.5`, the extension, or a word.
+  /// Whether this is the point of a number such as `12.5`, and not of `1.2.5`, the extension, or a word.
   bool at_decimal_point(std::size_t begin) const {
     if (at_ >= text_.size() || text_[at_] != '.' || !digit_at(at_ + 1)) return false;
     std::size_t end = at_ + 1;
@@ -110,7 +110,7 @@ class Parser {
     return !another_before && !another_after;
   }
 
-  /// Of `1e-05`: with a sign alone, since `1e05` may be a word.
+  /// The exponent of `1e-05`. It needs a sign, since `1e05` may be a word.
   std::int64_t read_exponent() {
     if (at_ + 2 >= text_.size() || (text_[at_] | 0x20) != 'e') return 0;
     if ((text_[at_ + 1] != '-' && text_[at_ + 1] != '+') || !digit_at(at_ + 2)) return 0;
@@ -140,7 +140,7 @@ class Parser {
     name_.decimals.push_back(number(negative, whole, fraction, exponent));
     name_.fractions.emplace_back(fraction);
     name_.integers.push_back(number(negative, whole, {}, 0));
-    // Of whole numbers and those with a fraction in one family, 1 and 1.5, the former have an empty second number.
+    // If a family has both whole numbers and fractions, such as 1 and 1.5, the former have an empty second number.
     name_.integers.push_back(fraction.empty() ? NameNumber{} : number(negative, fraction, {}, 0));
   }
 
@@ -149,7 +149,7 @@ class Parser {
   NumberedName name_;
 };
 
-/// Gives a folder the spelling under which it was seen first.
+/// Replaces the name of a folder by the first spelling under which it occurred.
 class FolderNames {
  public:
   const fs::path& of(const fs::path& folder) {
@@ -168,7 +168,7 @@ class FolderNames {
   std::map<std::string, fs::path> places_;  ///< by place
 };
 
-/// Of the name and its folder, without the extension.
+/// The numbers in the name and its folder, without the extension.
 NumberedName numbers_of_name(const fs::path& path, FolderNames& folders) {
   const std::string text = (folders.of(path.parent_path()) / path.stem()).string();
   return Parser(text).parse();
@@ -178,7 +178,7 @@ NumberedName numbers_of_name(const fs::path& path, FolderNames& folders) {
 
 using Key = std::vector<NameNumber> NumberedName::*;
 
-/// Beyond this many digits a number counts no frames, and no gap is looked for.
+/// A number with more digits does not count frames, and no gaps are looked for.
 constexpr std::int64_t most_gap_digits = 18;
 
 struct Pair {
@@ -194,7 +194,7 @@ class Family {
   }
   std::size_t size() const { return places_.size(); }
 
-  /// The first frame that has a smaller number than one before it, and the first of those.
+  /// The first frame that has a smaller number than an earlier one, and the first such earlier frame.
   std::optional<Pair> against(Key key) const {
     std::size_t largest = 0;
     for (std::size_t j = 1; j < names_.size(); ++j) {
@@ -235,8 +235,8 @@ class Family {
     for (std::size_t i = 0; i < size(); ++i) order[places_[i]] = places_[sorted[i]];
   }
 
-  /// The numbers that count the frames, ascending, each with one of its frames. None unless exactly one number of the
-  /// names differs, and is always a whole one from 0.
+  /// The numbers that count the frames, ascending, each with one of its frames. Empty unless exactly one number of the
+  /// names varies, and is always an integer >= 0.
   std::vector<std::pair<std::uint64_t, std::size_t>> counted() const {
     const auto column = varying();
     if (!column) return {};
@@ -309,12 +309,12 @@ class Orderer {
   }
 
  private:
-  /// Of the frame at a place in the order given.
+  /// The name of the frame at a place in the order given.
   std::string name(std::size_t place) const { return frames_[place].string(); }
 
   static const char* advice() { return "; pass --order natural, or --order given if this is the order you mean"; }
 
-  /// What is wrong with the order; "" if nothing is.
+  /// What is wrong with the order; "" if nothing.
   std::string problem_of(const Family& family) const {
     const bool two_ways = family.may_be_integers();
     const auto decimal = family.against(&NumberedName::decimals);

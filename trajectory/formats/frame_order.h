@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Notes on the order of frames, capped. The order itself is in include/noli/frames.h.
+// Caps the notes on the order of frames. The order itself is in include/noli/frames.h.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace noli {
 
-/// The first of many notes; the last line then counts the others: "and 5 more gaps".
+/// Appends the first of many notes; the last line then counts the others: "and 5 more gaps".
 inline constexpr std::size_t most_notes_of_a_kind = 10;
 void append_capped(std::vector<std::string>& notes, const std::vector<std::string>& more, std::string_view what);
 

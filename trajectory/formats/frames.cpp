@@ -19,7 +19,7 @@
 namespace noli {
 namespace {
 
-/// Throws when two lists of cells differ, naming the first that does.
+/// Throws when two lists of cells differ, naming the first difference.
 template <class Cell>
 void require_same_cells(std::string_view what, const std::vector<Cell>& expected, const std::string& expected_name,
                         const std::vector<Cell>& found, const std::string& found_name) {

@@ -14,11 +14,11 @@
 
 namespace noli {
 
-/// Reads a frame; the extension says how (mesh_format). Throws InputError, also for other extensions.
+/// Reads a frame; the extension decides how (mesh_format). Throws InputError, also for other extensions.
 Frame read_frame(const std::filesystem::path& path);
 
-/// The same for the bytes of a file; `path` says how to read them and is what errors call them.
-/// `polygons`: what to do with those, and where they are noted.
+/// The same for the bytes of a file; `path` decides how to read them, and errors name it. `polygons`: the rule for
+/// polygons, which are also listed there.
 Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Polygons* polygons = nullptr);
 
 /// Throws InputError when the meshes differ in vertex count or in any cell; the message names both files and the first
@@ -26,8 +26,8 @@ Frame parse_frame(std::string_view bytes, const std::filesystem::path& path, Pol
 void require_same_mesh(const Mesh& expected, const std::filesystem::path& expected_path, const Mesh& found,
                        const std::filesystem::path& found_path);
 
-/// Whether all z are equal (as numbers): then nothing leaves a plane z = const, which may be another one in the next
-/// frame, and the step may be decided in two dimensions. True for no positions.
+/// Whether all z are equal (as numbers). If so in both frames of a step, even with different z, the step may be decided
+/// in two dimensions. True for no positions.
 bool all_z_equal(std::span<const Position> positions);
 
 /// ".ply": in lower case.

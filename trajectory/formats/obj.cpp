@@ -111,8 +111,8 @@ class ObjParser {
     frame_.mesh.points.insert(frame_.mesh.points.end(), corners_.begin(), corners_.end());
   }
 
-  /// All words after the keyword. What follows a '/' is not looked at: no texture or normal moves a vertex, and some
-  /// programs write "3/" or "3//" where they have none.
+  /// All words after the keyword. Whatever follows a '/' is ignored: texture and normal do not move a vertex, and some
+  /// programs write "3/" or "3//" when they have none.
   void parse_corners() {
     corners_.clear();
     for (std::size_t i = 1; i < words_.size(); ++i) {
@@ -153,7 +153,7 @@ class ObjParser {
   const std::string& file_;
   Polygons* polygons_;
   std::size_t line_ = 0;                 ///< first line of the statement
-  std::string joined_;                   ///< the statement, where it goes over several lines
+  std::string joined_;                   ///< the statement, if it spans several lines
   std::vector<std::string_view> words_;  ///< of the statement, without comment
   std::vector<VertexId> corners_;        ///< of the statement, counted from 0
   std::int64_t largest_index_ = 0;       ///< of all, counted from 1

@@ -51,7 +51,7 @@ auto with_type(PlyType type, F&& f) {
   return f(double{});
 }
 
-/// Whether an integer is exactly a double: no more than 53 bits between its highest and its lowest one.
+/// Whether an integer is exactly a double: at most 53 bits from its highest to its lowest set bit.
 template <class T>
 bool is_exactly_double(T value) {
   const auto magnitude =
@@ -59,7 +59,7 @@ bool is_exactly_double(T value) {
   return magnitude == 0 || std::bit_width(magnitude) - std::countr_zero(magnitude) <= 53;
 }
 
-/// What both sources have: names for errors, and the checks on a value once it is there.
+/// The common part of both sources: names for errors, and the checks on a value that was read.
 template <class Source>
 class SourceBase {
  public:
@@ -103,8 +103,8 @@ class SourceBase {
   }
 
  protected:
-  /// Fails when the entries of an element, at least `bytes` bytes each, cannot fit into what remains and `slack` bytes
-  /// more.
+  /// Fails when the entries of an element, at least `bytes` bytes each, cannot fit into the remaining bytes plus
+  /// `slack`.
   void require_bytes(const PlyElement& element, std::uint64_t bytes, std::uint64_t slack) {
     if (element.count > (self().remaining() + slack) / bytes) {
       self().fail(fmt::format(
@@ -174,7 +174,7 @@ class AsciiSource : public SourceBase<AsciiSource> {
 
   static std::uint64_t item_bytes(PlyType) { return 2; }
 
-  /// An entry is a line of one byte and its end; the last line end may be missing.
+  /// An entry is at least one byte and a line end; the last line end may be missing.
   void require_room(const PlyElement& element) { require_bytes(element, 2, 1); }
   void begin_entry(const PlyElement& element, std::uint64_t entry) {
     element_ = &element;
@@ -208,7 +208,7 @@ class AsciiSource : public SourceBase<AsciiSource> {
     return result;
   }
   void skip(PlyType) { next_word(); }
-  /// Bytes that may still hold values: of the current line while it is being read, else of the rest.
+  /// Bytes that may still hold values: of the current line while it is being read, otherwise of the rest.
   std::uint64_t remaining() const { return line_bytes_ > 0 ? line_bytes_ + 1 : lines_.rest().size(); }
 
   void finish() {
@@ -242,7 +242,7 @@ class AsciiSource : public SourceBase<AsciiSource> {
 
 // --- The reader -----------------------------------------------------------------------------------------------------
 
-/// Errors that concern the declaration of an element point to its line in the header.
+/// Errors about the declaration of an element name its line in the header.
 [[noreturn]] void fail_header(const std::string& file, const PlyElement& element, const std::string& problem) {
   throw InputError(file, line_place(element.line), problem);
 }
@@ -263,7 +263,7 @@ void require_integer(const std::string& file, const PlyElement& element, const P
   }
 }
 
-/// The one list of vertices of element face.
+/// The list of vertices of element face, of which there must be exactly one.
 const PlyProperty& require_corners(const std::string& file, const PlyElement& face) {
   const PlyProperty* plural = face.find("vertex_indices");
   const PlyProperty* singular = face.find("vertex_index");
@@ -277,7 +277,7 @@ const PlyProperty& require_corners(const std::string& file, const PlyElement& fa
   return *corners;
 }
 
-/// Reads the body. Every element is read entry by entry, property by property; what is not needed is skipped.
+/// Reads the body: every element entry by entry, property by property. Skips what is not needed.
 template <class Source>
 class BodyReader {
  public:

@@ -138,7 +138,7 @@ class HeaderParser {
     return found->type;
   }
 
-  /// An entry without properties takes no bytes, so a body could promise any number of them.
+  /// An entry without properties takes no bytes, so a header could promise any number of them.
   void finish_element() const {
     if (header_.elements.empty()) return;
     const PlyElement& element = header_.elements.back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The header of a PLY file: what the body holds, element by element.
+// Parses the header of a PLY file, which says what the body holds, element by element.
 //
 // Grammar, one line each (LF or CRLF), words separated by blanks:
 //   ply | format (ascii|binary_little_endian|binary_big_endian) 1.0 | comment ... | obj_info ...
@@ -56,9 +56,9 @@ struct PlyHeader {
 /// "float32/float64".
 std::string number_type(const PlyElement& vertex);
 
-/// Parses the header at the beginning of `bytes`; `file` is what errors call it. Allocates in proportion to the
-/// header's own length, whatever it promises. Throws InputError with the line: no PLY file, no end_header, an unknown
-/// format, keyword or type, a count that is no number, a name declared twice, an element that has entries but no
+/// Parses the header at the beginning of `bytes`; errors name `file`. Allocates in proportion to the header's own
+/// length, whatever counts it promises. Throws InputError with the line: not a PLY file, no end_header, an unknown
+/// format, keyword or type, a count that is not a number, a name declared twice, an element that has entries but no
 /// properties.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
 

@@ -11,7 +11,7 @@
 namespace noli {
 namespace {
 
-/// a + (b - a) x (c - a) spans the plane; d is the corner.
+/// The plane through a, b and c, and a corner d.
 struct Height {
   const Position &a, &b, &c, &d;
 };
@@ -23,9 +23,8 @@ bool in_plane_of_axes(const Height& h) {
   return false;
 }
 
-/// Whether arithmetic in floating point is enough to see that the height is at most `limit`. The determinant is within
-/// 2^-50 of the size of its terms, the square of the normal within 2^-48; what underflows is less than 2^-600 in this
-/// range.
+/// Whether floating-point arithmetic can prove that the height is at most `limit`. The determinant is within 2^-50 of
+/// the size of its terms, the square of the normal within 2^-48; underflow adds less than 2^-600 in this range.
 bool surely_at_most(const Height& h, double limit) {
   Position u{}, v{}, w{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -88,9 +87,9 @@ double larger_height(const Height& h, double at_least) {
 
 // --- Areas -----------------------------------------------------------------------------------------------------------
 
-/// Whether floating-point arithmetic is enough to see that u v - w x is not zero, for u, v, w, x that are differences
-/// of doubles, rounded once: each product is then within 4 units of 2^-53 of the exact one, so a result larger than
-/// 2^-40 of the products' sizes has the right sign, provided that nothing underflowed.
+/// Whether floating-point arithmetic can prove that u v - w x is not zero. Precondition: u, v, w, x are differences of
+/// doubles, rounded once. Each product is then within 4 units of 2^-53 of the exact one. So a result larger than 2^-40
+/// of the products' sizes has the right sign, if nothing underflowed.
 bool surely_not_zero(double u, double v, double w, double x) {
   const double size = std::fabs(u * v) + std::fabs(w * x);
   return size > 0x1p-900 && size < 0x1p1000 && std::fabs(u * v - w * x) > 0x1p-40 * size;
@@ -126,7 +125,7 @@ double largest_non_planarity(const Mesh& mesh, std::span<const Fan> fans, std::s
     }
     if (base == fan.count) continue;  // there is no plane
     const auto& [a, b, c] = triangles[base];
-    // Corners before the base may be outside of its plane too, where others coincide.
+    // Corners before the base may be outside its plane too, if others coincide.
     for (std::size_t i = 0; i < fan.count; ++i) {
       if (i != base) at_least = larger_height({x(a), x(b), x(c), x(triangles[i][2])}, at_least);
       if (i == 0 && base != 0) at_least = larger_height({x(a), x(b), x(c), x(triangles[i][1])}, at_least);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces of more than three corners: how they become triangles, and how far they are from being flat.
+// Faces with more than three corners: how they become triangles, and how far they are from flat.
 //
 // Notation
 //   fan             the triangles (p0, p1, p2), (p0, p2, p3), ... of a polygon p0 p1 ... pn (cells.h)
-//   non-planarity   the largest distance of a corner from the plane of the fan's first triangle that has an area; 0
-//                   where no triangle has one. It is 0 exactly where all corners are in that plane. Another first
-//                   corner gives other triangles, and may give another distance
+//   non-planarity   the largest distance of a corner from the plane of the fan's first triangle with a nonzero area; 0
+//                   if no triangle has one. It is 0 exactly if all corners are in that plane. A different first corner
+//                   gives different triangles, and may give a different distance
 //
-// What this does not do: it does not look whether a polygon is convex. A flat one that is not folds over itself.
+// Convexity is not checked: the fan of a flat polygon that is not convex folds over itself.
 #pragma once
 
 #include <cstddef>
@@ -26,17 +26,17 @@ struct Fan {
   std::size_t first = 0, count = 0;
 };
 
-/// What a reader is told about polygons, and what it tells.
+/// The rule for polygons, passed to a reader, and the fans that it made.
 struct Polygons {
   PolygonRule rule = PolygonRule::fan;
   std::vector<Fan> fans = {};  ///< filled by the reader
 };
 
-/// What a reader says of a polygon that it refuses.
+/// The message for a polygon that a reader refuses.
 std::string refused_polygon(std::size_t corners);
 
-/// The largest non-planarity of these polygons, rounded up to double (infinity where it is no double), or
-/// `at_least` where that is larger. Exact: it is 0 only if all are flat, and at_least is.
+/// The largest non-planarity of these polygons, rounded up to double (infinity beyond its range), or `at_least` if that
+/// is larger. It is 0 only if all polygons are exactly flat and at_least is 0.
 double largest_non_planarity(const Mesh& mesh, std::span<const Fan> fans, std::span<const Position> positions,
                              double at_least = 0);
 

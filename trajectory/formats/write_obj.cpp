@@ -11,7 +11,7 @@
 namespace noli {
 namespace {
 
-/// OBJ counts vertices from 1; the last of 2^32 does not fit a VertexId then.
+/// OBJ counts vertices from 1, so the number of the last of 2^32 does not fit a VertexId.
 std::uint64_t number(VertexId v) { return std::uint64_t{v} + 1; }
 
 }  // namespace

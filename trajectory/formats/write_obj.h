@@ -11,10 +11,10 @@
 
 namespace noli {
 
-/// The bytes of the file. Preconditions as format_ply has them.
+/// The bytes of the file. Preconditions as for format_ply.
 std::string format_obj(const Frame& frame);
 
-/// Writes the file, or replaces it. Throws std::system_error when it cannot be written in full.
+/// Creates or replaces the file. Throws std::system_error when it cannot be written in full.
 void write_obj(const std::filesystem::path& path, const Frame& frame);
 
 }  // namespace noli

@@ -15,11 +15,11 @@ namespace noli {
 
 enum class PlyEncoding { ascii, binary_little_endian };
 
-/// The bytes of the file. Precondition: as many positions as vertices; finite. To be read back equal, the mesh must
-/// have no redundant cells (cells.h).
+/// The bytes of the file. Precondition: as many positions as vertices; finite. The mesh is read back equal only if it
+/// has no redundant cells (cells.h).
 std::string format_ply(const Frame& frame, PlyEncoding encoding);
 
-/// Writes the file, or replaces it. Throws std::system_error when it cannot be written in full.
+/// Creates or replaces the file. Throws std::system_error when it cannot be written in full.
 void write_ply(const std::filesystem::path& path, const Frame& frame, PlyEncoding encoding);
 
 }  // namespace noli

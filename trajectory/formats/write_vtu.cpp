@@ -15,7 +15,7 @@
 namespace noli {
 namespace {
 
-/// The cells as VTK has them: the vertices of all, where each ends, and of what type it is.
+/// The cells as VTK stores them: the vertices of all cells, where each cell ends, and its type.
 struct VtkCells {
   std::vector<std::uint64_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
@@ -36,8 +36,8 @@ VtkCells vtk_cells(const Mesh& mesh) {
   return cells;
 }
 
-/// Adds an array to what is appended to the file: its length in bytes and its bytes, in base64 together. Returns its
-/// element, whose offset counts characters from the underscore.
+/// Adds an array to the appended data: its length in bytes and its bytes, together in base64. Returns its XML element,
+/// whose offset counts characters from the underscore.
 template <class T>
 std::string append_array(std::string& appended, std::string_view attributes, std::span<const T> values) {
   std::string bytes;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes VTK's XML files, as ParaView opens them: VTU, an unstructured grid for each frame, and PVD, which says at what
-// times they are. Faces are triangles (cell type 5), loose edges lines (3), loose points vertices (1); vertices that
-// nothing refers to are points without a cell. Numbers are appended data in base64, so doubles keep all their bits.
+// Writes VTK's XML files for ParaView: VTU, an unstructured grid for each frame, and PVD, which lists their times.
+//
+// Faces are triangles (cell type 5), loose edges lines (3), loose points vertices (1). Unreferenced vertices are points
+// without a cell. Numbers are appended data in base64, so doubles keep all their bits.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace noli {
 
-/// A number for each cell, under a name without characters of markup.
+/// A number for each cell; the name must not contain XML markup.
 struct CellData {
   std::string name;
   std::vector<std::uint8_t> values;
@@ -32,7 +33,7 @@ struct PvdEntry {
 
 std::string format_pvd(std::span<const PvdEntry> entries);
 
-/// Write the file, or replace it. Throw std::system_error when it cannot be written in full.
+/// Create or replace the file. Throw std::system_error when it cannot be written in full.
 void write_vtu(const std::filesystem::path& path, const Frame& frame,
                const std::optional<CellData>& data = std::nullopt);
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);

@@ -20,7 +20,7 @@
 namespace noli::integrator {
 namespace {
 
-/// A file's mesh. In the plane it has edges only, and z = 0.
+/// Loads a file's mesh. In dimension 2 it must have only edges, and z = 0.
 Shape load(const Scene& scene, const MeshFile& file, const Field& at) {
   Frame frame = load_frame(scene, file.path, at);
   if (frame.mesh.vertex_count == 0) at.fail("expected a mesh with vertices");
@@ -51,7 +51,7 @@ void require_few_copies(const Array& array, std::size_t vertices, const Field& a
   if (!(all <= most_vertices)) at.fail(fmt::format("expected at most {} vertices, found {}", most_vertices, all));
 }
 
-/// Copies in rows: of the mesh, its shape at rest, its sets; those at the start moved.
+/// Makes copies in rows of the mesh, its shape at rest and its sets; start positions are moved.
 void repeat(BodyMesh& made, const Array& array) {
   const std::size_t n = made.shape.mesh.vertex_count, copies = array.copies();
   if (copies == 1) return;
@@ -198,7 +198,8 @@ BodyMesh make_body(const Scene& scene, std::size_t index) {
   require_few_copies(body.array, made.shape.mesh.vertex_count, at["array"]["counts"]);
   repeat(made, body.array);
   for (std::size_t i = 0; i < made.start.size(); ++i) {
-    if (!std::isfinite(to_vec(made.start[i]).squaredNorm())) at.fail(fmt::format("vertex {} is too far away", i));
+    if (!std::isfinite(to_vec(made.start[i]).squaredNorm()))
+      at.fail(fmt::format("expected vertices nearer to the origin; the squared distance of vertex {} overflows", i));
   }
   made.mass = lumped_masses(body, made);
   require_masses(made, at["material"]);

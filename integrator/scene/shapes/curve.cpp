@@ -9,13 +9,13 @@
 namespace noli::integrator {
 namespace {
 
-/// Uniform Catmull-Rom spline from b to c; t in [0, 1].
+/// A uniform Catmull-Rom spline from b to c; t in [0, 1].
 Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
   const Vec3 linear = c - a, quadratic = 2 * a - 5 * b + 4 * c - d, cubic = 3 * (b - c) + d - a;
   return b + (0.5 * t) * (linear + t * (quadratic + t * cubic));
 }
 
-/// The smooth curve as a polyline. A closed one has its first point at its end too.
+/// The smooth curve as a polyline. A closed one has its first point also at its end.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& points, bool closed) {
   constexpr int chords = 32;
   const std::size_t n = points.size();
@@ -44,7 +44,8 @@ std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t
   if (kind.smooth) line = smoothed(line, kind.closed);
   std::vector<double> reached{0};  // length up to each point
   for (std::size_t i = 1; i < line.size(); ++i) reached.push_back(reached.back() + length(line[i] - line[i - 1]));
-  if (!(reached.back() > 0) || !std::isfinite(reached.back())) throw std::invalid_argument("the curve has no length");
+  if (!(reached.back() > 0) || !std::isfinite(reached.back()))
+    throw std::invalid_argument("expected a curve with a positive, finite length");
   std::vector<Vec3> result{line.front()};
   std::size_t piece = 1;
   for (std::uint32_t k = 1; k < n; ++k) {

@@ -23,12 +23,11 @@ inline double length(const Vec3& x) { return std::sqrt(x.squaredNorm()); }
 
 struct CurveKind {
   bool smooth = false;  ///< the Catmull-Rom curve instead of straight lines
-  bool closed = false;  ///< goes on from the last point to the first
+  bool closed = false;  ///< continues from the last point to the first
 };
 
-/// n + 1 points, the first and last of which are those of the curve; between them at k/n of its length. Of a closed
-/// curve n, without the last. Precondition: at least two points, n >= 1. Throws std::invalid_argument if the curve has
-/// no length.
+/// n + 1 points at k/n of the curve's length, its first and last points included; for a closed curve n, without the
+/// last. Precondition: at least two points, n >= 1. Throws std::invalid_argument if the curve has no length.
 std::vector<Vec3> along_curve(const std::vector<Position>& points, std::uint32_t n, CurveKind kind);
 
 }  // namespace noli::integrator

@@ -41,8 +41,8 @@ Position Field::direction() const {
 double Field::countable_time() const {
   const double least = document_->at("duration").get<double>() * 0x1p-50;
   if (!(number() > least)) {
-    fail(fmt::format("expected more than {} [s], a part of the duration that can be counted, found {}", least,
-                     number()));
+    fail(fmt::format("expected more than {} [s], 2^-50 of the duration, found {}: shorter times cannot be counted",
+                     least, number()));
   }
   return number();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A place in a scene's document, which the schema has accepted: reads values, and names itself in errors.
+// A field of a scene's document, which the schema has accepted: reads its value, and names it in errors.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace noli::integrator {
 
-/// Refers to the document it was made from, which must outlive it.
+/// Refers to its document, which must outlive it.
 class Field {
  public:
   Field(const Json& document, std::string file) : document_(&document), file_(std::move(file)) {}
@@ -31,7 +31,7 @@ class Field {
   double number() const { return json().get<double>(); }
   std::string text() const { return json().get<std::string>(); }
   bool flag() const { return json().get<bool>(); }
-  /// An integer, however it is written (5, 5.0, 5e0). Precondition: in the range of T.
+  /// An integer in any notation (5, 5.0, 5e0). Precondition: in the range of T.
   template <class T = std::uint32_t>
   T count() const {
     return json().is_number_float() ? static_cast<T>(json().get<double>()) : json().get<T>();
@@ -48,16 +48,16 @@ class Field {
     for (std::size_t i = 0; i < N; ++i) values[i] = (*this)[i].count();
     return values;
   }
-  /// As many numbers as the scene has dimensions; z = 0 in the plane. Throws InputError when there are more or fewer.
+  /// As many numbers as the scene has dimensions; z = 0 in dimension 2. Throws InputError if there are more or fewer.
   Position vector() const;
   std::vector<Position> vectors() const;
   /// Throws InputError when the vector is zero.
   Position direction() const;
 
-  /// A time of which the duration has at most 2^50. Throws InputError when it is shorter.
+  /// A time longer than 2^-50 of the duration. Throws InputError when it is shorter.
   double countable_time() const;
 
-  /// Of the scene.
+  /// The window and the dimension of the scene.
   double window() const { return document_->at("window").get<double>(); }
   int dimension() const { return document_->at("dimension").get<int>(); }
 

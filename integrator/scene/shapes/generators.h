@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes made by rule: those of schemas/scene.json, with the sets of vertices that it names. Positions are made by
-// + - * / sqrt alone (circles: turn.h), so their bits are the same everywhere; what is symmetric on paper about an axis
-// or a diagonal is so bit for bit, unless said otherwise.
+// Generates the meshes of schemas/scene.json, with the sets of vertices that it names. Positions use only + - * / sqrt
+// (circles: turn.h), so their bits are the same on every machine. Shapes that are symmetric about an axis or a diagonal
+// are so bit for bit, unless stated otherwise.
 //
-//   points   as they are given
+//   points   as given
 //   chain    n + 1 vertices at equal parts of the curve's length. Smooth: uniform Catmull-Rom splines (Catmull, Rom
 //            1974) through the points, whose ends are mirrored; lengths are those of 32 chords a span. Closed: n
 //            vertices, as many as edges
 //   ring     n vertices, the first on the x axis, counterclockwise
-//   grid     rows from bottom to top; in each cell the diagonal from left bottom to right top, or, alternating, in
-//            every second cell the other one; finer in one place by halving (generators_sheet.cpp). Faces look to +z
-//   ribbon   rows across the band, from first to last; a row's direction is that of the one before, made perpendicular
-//            to the curve. Faces as those of a grid with the curve as its x
+//   grid     rows from bottom to top. Each cell has the diagonal from bottom left to top right; if alternating, every
+//            second cell has the other one. Finer in one place by halving (generators_sheet.cpp). Faces look to +z
+//   ribbon   rows across the band, from first to last; a row's direction is that of the previous one, made
+//            perpendicular to the curve. Faces as in a grid with the curve as its x
 //   disc     the centre, then rings of 6, 12, 18, ... vertices. Faces look to +z
 //   rod      segments + 1 rings of vertices from -length/2 to length/2, then the middles of the caps. Faces look
 //            outward

@@ -43,15 +43,15 @@ Vec3 unit(const Vec3& x, const char* problem) {
   return x / length(x);
 }
 
-/// Part of x that is perpendicular to the unit vector t, of length 1.
+/// The part of x that is perpendicular to the unit vector t, scaled to length 1.
 Vec3 perpendicular(const Vec3& x, const Vec3& t) {
-  return unit(x - x.dot(t) * t, "the band's side is along its curve");
+  return unit(x - x.dot(t) * t, "expected a side of the band that is not along its curve");
 }
 
 /// Direction of a curve at its k-th point.
 Vec3 tangent(const std::vector<Vec3>& x, std::size_t k) {
   const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, x.size() - 1);
-  return unit(x[after] - x[before], "the curve turns back on itself");
+  return unit(x[after] - x[before], "expected a curve that does not turn back on itself");
 }
 
 /// Vertex j of ring k of a disc.
@@ -66,11 +66,11 @@ using Edge = std::array<VertexId, 2>;
 
 Edge sorted(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Triangles made smaller by bisection of the newest vertex (Mitchell, "A comparison of adaptive refinement techniques
-/// for elliptic problems", 1989): each triangle has a peak and, opposite to it, a base; two triangles that share a base
-/// are halved at its middle, which is the peak of their halves. A neighbour whose base is another edge is halved first.
-/// So no vertex ever lies inside an edge, and the shapes that come about are the first ones and a few more. Faces are
-/// kept with their peaks first. Angles are not judged, and no vertex moves.
+/// Newest-vertex bisection of triangles (Mitchell, "A comparison of adaptive refinement techniques for elliptic
+/// problems", 1989). Each triangle has a peak and, opposite to it, a base. Two triangles that share a base are halved
+/// at its middle, which is the peak of their halves. A neighbour with a different base is halved first. So no vertex
+/// ever lies inside an edge, and only a few new shapes of triangles appear. Faces are stored with their peaks first. No
+/// vertex moves.
 class Bisection {
  public:
   explicit Bisection(Shape& shape) : shape_(shape), faces_(shape.mesh.faces) {
@@ -80,7 +80,7 @@ class Bisection {
     }
   }
 
-  /// Halves face f, and what has to be halved for that.
+  /// Halves face f, and any faces that must be halved for that.
   void halve(std::size_t f) {
     const Edge base = base_of(f);
     std::size_t other = across(base, f);
@@ -137,7 +137,7 @@ class Bisection {
     return none;
   }
 
-  /// The first half stays in the face's place.
+  /// Splits a face; the first half keeps the face's place.
   void split(std::size_t f, VertexId middle) {
     const auto [peak, left, right] = faces_[f];
     for (const Edge& edge : edges(faces_[f])) std::erase(on_[edge], f);
@@ -157,9 +157,9 @@ class Bisection {
 };
 
 /// Halves triangles that contain a point of the plane, or have a vertex within `radius` of it, until their edges are at
-/// most `longest`. New vertices are numbered after those that were there. Preconditions: the faces are a triangulation
-/// in the plane z = 0 in which the longest edge of a triangle is that of its neighbour across it too, as in a lattice
-/// of halved rectangles; longest > 0.
+/// most `longest`. New vertices are numbered after the existing ones. Preconditions: longest > 0; the faces are a
+/// triangulation in the plane z = 0, in which the longest edge of a triangle is also that of its neighbour across it,
+/// as in a lattice of halved rectangles.
 void refine(Shape& shape, const std::array<double, 2>& at, double radius, double longest) {
   Bisection bisection(shape);
   const Vec3 p(at[0], at[1], 0);

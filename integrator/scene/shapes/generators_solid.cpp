@@ -11,7 +11,7 @@
 namespace noli::integrator {
 namespace {
 
-/// The last so many faces look the other way.
+/// Reverses the last `count` faces.
 void turn_over(Mesh& mesh, std::size_t count) {
   for (auto face = mesh.faces.end() - static_cast<std::ptrdiff_t>(count); face != mesh.faces.end(); ++face) {
     std::swap((*face)[1], (*face)[2]);
@@ -20,8 +20,8 @@ void turn_over(Mesh& mesh, std::size_t count) {
 
 Position on_unit_sphere(const Vec3& x) { return to_position(x / std::sqrt(x.squaredNorm())); }
 
-/// The icosahedron with vertices (0, +-1, +-phi) and their rotations of coordinates, phi the golden ratio. Its faces
-/// are the triples of vertices that are all neighbours, looking outward.
+/// The icosahedron with vertices (0, +-1, +-phi) and their cyclic permutations, phi the golden ratio. Its faces are the
+/// triples of neighbouring vertices, looking outward.
 Shape icosahedron() {
   const double phi = (1 + std::sqrt(5.0)) / 2;
   Shape shape;
@@ -44,7 +44,7 @@ Shape icosahedron() {
   return shape;
 }
 
-/// Each face in four, new vertices moved onto the sphere.
+/// Splits each face into four; new vertices are moved onto the sphere.
 void subdivide(Shape& shape) {
   std::map<std::pair<VertexId, VertexId>, VertexId> middles;
   const auto middle = [&](VertexId a, VertexId b) {
@@ -61,12 +61,12 @@ void subdivide(Shape& shape) {
   shape.mesh.faces = std::move(finer);
 }
 
-/// Vertices of the surface of a box, each made once.
+/// The vertices of the surface of a box, without duplicates.
 class BoxLattice {
  public:
   explicit BoxLattice(const SurfaceOfBox& box) : box_(box) {}
 
-  /// The side on which coordinate `axis` is least or greatest.
+  /// Adds the side on which coordinate `axis` is least or greatest.
   void add_side(std::size_t axis, bool greatest) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::array<std::uint32_t, 3> at{};
@@ -105,7 +105,7 @@ class BoxLattice {
   std::map<std::array<std::uint32_t, 3>, VertexId> ids_;
 };
 
-/// The cells between rings of vertices, each with the next; vertex(k, j) is vertex j of ring k.
+/// Adds the cells between successive rings of vertices; vertex(k, j) is vertex j of ring k.
 template <class Vertex>
 void add_tube_faces(Mesh& mesh, std::uint32_t segments, std::uint32_t sides, const Vertex& vertex) {
   for (std::uint32_t k = 0; k < segments; ++k) {

@@ -18,7 +18,7 @@ Position apply(const Matrix& m, const Position& x) {
   return y;
 }
 
-/// About an axis of length 1: Rodrigues' formula.
+/// The rotation about an axis of length 1, by Rodrigues' formula.
 Matrix about_axis(const Position& axis, const CosSin& a) {
   const auto [x, y, z] = axis;
   const double k = 1 - a.cos;
@@ -61,7 +61,7 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Evenly from [-1, 1), in multiples of 2^-52.
+/// A number drawn evenly from [-1, 1), a multiple of 2^-52.
 double even(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-52 - 1; }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a body is: at rest, and at the start. Only + - * / sqrt (angles: turn.h), so bits are the same everywhere.
+// Computes the positions of a body at rest and at the start. It uses only + - * / sqrt (angles: turn.h), so bits are
+// the same on every machine.
 //
 // Notation
 //   X    position at rest: scale * that of the mesh
@@ -15,12 +16,12 @@
 
 namespace noli::integrator {
 
-/// X and x of each vertex; x is not perturbed yet.
+/// X and x of each vertex; x before it is perturbed.
 std::pair<std::vector<Position>, std::vector<Position>> place(const Shape& shape, const Deform& deform,
                                                               const Transform& transform);
 
-/// Adds to each coordinate (two in the plane) an amount drawn evenly from [-amplitude, amplitude). What is drawn
-/// depends on the seed, the body's number, the vertex, and the coordinate.
+/// Adds to each coordinate (two in dimension 2) an amount drawn evenly from [-amplitude, amplitude). It depends on the
+/// seed, the body's number, the vertex, and the coordinate.
 void perturb(std::vector<Position>& positions, double amplitude, std::uint64_t seed, std::size_t body, int dimension);
 
 }  // namespace noli::integrator

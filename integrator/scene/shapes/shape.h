@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mesh before it is put into a scene.
+// A mesh before it is placed in a scene.
 #pragma once
 
 #include <map>
@@ -15,9 +15,9 @@ namespace noli::integrator {
 struct Shape {
   Mesh mesh;
   std::vector<Position> positions;
-  std::map<std::string, std::vector<VertexId>> sets;  ///< vertices by the name of a set, ascending
+  std::map<std::string, std::vector<VertexId>> sets;  ///< the vertices of each named set, ascending
 
-  /// Throws Stopped: generators add many.
+  /// Throws Stopped, as generators add many vertices.
   VertexId add(const Position& x) {
     end_if_stopped();
     positions.push_back(x);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The usual cases of the pairs of cells in which the hierarchy ends, in few operations: most share a corner or an edge,
-// and of the others most are separated by the first directions one thinks of.
+// Settles the usual pairs of cells at which the hierarchy ends, in few operations. Most of these cells share a corner
+// or an edge, and simple directions separate most of the others.
 //
 // Notation
-//   a         the point that is the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h
-//             with r = a, so q(a) = 0
-//   abc, ade  two faces around a corner: if n has b, c on its upper and d, e on its lower side of a, it separates (bc,
-//             ade) and (abc, de)
+//   a         the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h with r = a, so q(a)
+//             = 0
+//   abc, ade  two faces around a corner: if b, c are above a along n, and d, e below, n separates (bc, ade) and (abc,
+//             de)
 //   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
-//             if it has c above and d below both a and b; one direction each is tried for (bc, ad) and (ac, bd)
+//             if c is above and d below both a and b along n; one direction each is tried for (bc, ad) and (ac, bd)
 //   abc, def  two cells without a common vertex
 //
-// What this does not do: what it does not settle it leaves to proofs/prover/cell_pair.h.
+// proofs/prover/cell_pair.h settles the rest.
 #pragma once
 
 #include <optional>
@@ -58,7 +58,7 @@ inline double twice_middle(BothEnds x) { return x.at_t0() + x.at_t1(); }
 
 }  // namespace detail
 
-/// Corners by number: `origin` is that of a in the first cell; `of_first`, `of_second` are those of the other points.
+/// Corners by number: `origin` is that of a in the first cell; `of_first` and `of_second` are the other points.
 template <int Dim, std::size_t First, std::size_t Second, class Cell>
 PointsAround<Dim, First + Second> points_around(const Cell& first, const Cell& second, std::size_t origin,
                                                 const std::array<std::size_t, First>& of_first,
@@ -71,7 +71,7 @@ PointsAround<Dim, First + Second> points_around(const Cell& first, const Cell& s
   return around;
 }
 
-/// Projections of the points at both ends, and what they may be wrong by.
+/// Projections of the points at both ends, and a bound of their errors.
 template <std::size_t Count>
 struct ProjectionsAround {
   std::array<BothEnds, Count> q;
@@ -95,7 +95,7 @@ ProjectionsAround<Count> project(const PointsAround<Dim, Count>& around, const D
   return p;
 }
 
-/// What is done to a direction before it is tested.
+/// Leaves a direction unrounded before it is tested.
 constexpr auto as_it_is = [](const auto& n) { return n; };
 
 /// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
@@ -110,7 +110,7 @@ std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>&
   return std::nullopt;
 }
 
-/// Points b, c, d, e, f: +1 if n, -1 if -n certainly separates abc (above) from def; 0 if neither could be shown.
+/// Points b, c, d, e, f: +1 if n, -1 if -n certainly separates abc (above) from def; 0 if neither is certain.
 template <int Dim>
 int separates(const PointsAround<Dim, 5>& points, const Direction<Dim>& n) {
   const auto p = project(points, n);
@@ -121,7 +121,7 @@ int separates(const PointsAround<Dim, 5>& points, const Direction<Dim>& n) {
   return below(p.bound, least_def - most_abc) ? -1 : 0;
 }
 
-/// Points b, c, d, e, f: from the middle of def to that of abc, at mid-time, six times as long.
+/// Points b, c, d, e, f: six times the vector from the middle of def to that of abc at mid-time.
 template <int Dim>
 std::array<double, Dim> between_middles(const PointsAround<Dim, 5>& points) {
   const auto& [b, c, d, e, f] = points.d;
@@ -130,7 +130,7 @@ std::array<double, Dim> between_middles(const PointsAround<Dim, 5>& points) {
   return n;
 }
 
-/// Four times a normal of the triangle on three points at mid-time, as rounding has it.
+/// Four times a normal of the triangle on three points at mid-time, rounded.
 inline std::array<double, 3> mid_normal(const std::array<BothEnds, 3>& p, const std::array<BothEnds, 3>& q,
                                         const std::array<BothEnds, 3>& r) {
   std::array<double, 3> u, v;
@@ -141,14 +141,14 @@ inline std::array<double, 3> mid_normal(const std::array<BothEnds, 3>& p, const 
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// What was found around an edge, in the order (c, abd), (bc, ad), (ac, bd), (abc, d).
+/// The directions found around an edge, in the order (c, abd), (bc, ad), (ac, bd), (abc, d).
 template <int Dim>
 struct AroundEdge {
   std::array<std::array<double, Dim>, 4> n;
   std::array<bool, 4> found{};
 };
 
-/// Points b, c, d, and perhaps d again: directions that separate the four pairs of parts.
+/// Directions that separate the four pairs of parts. Points b, c, d, and possibly d again.
 template <int Dim, std::size_t Count, class Round = decltype(as_it_is)>
 AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points, const Round& round = {}) {
   constexpr std::size_t b = 0, c = 1, d = 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Does a direction separate two parts over an interval of the step? Floating point with a proved bound.
+// Tests in floating point, with a proved bound, whether a direction separates two parts over an interval of the step.
 //
 // Notation
 //   u        2^-53; fl(.) rounds to nearest, so fl(x op y) = (x op y)(1 + e) + f with |e| <= u, and |f| <= 2^-1075 for
@@ -12,19 +12,19 @@
 //   q(x)     at time s: fl(fl((1 - s) p_t0) + fl(s p_t1)), where s is a multiple of 2^-20, so that 1 - s is exact
 //
 // Claim: if fl(q(a) - q(b)) > fl(16 u fl(4 |n|_1 reach)) + 2^-1022 for all corners a of the first part and b of the
-// second, then n.(a(s) - b(s)) > 0. Proof. Let R = |n|_1 reach. If some n_k or d_k is infinite or not a number, or 4 R
-// overflows, the right side is infinite or not a number and the comparison fails. Otherwise nothing overflows. n_k (x -
-// r)_k = n_k d_k (1 + e), and fl(n.d) takes a product and at most two sums per term, so |p(x) - n.(x - r)| <= 4.01 u R
-// + 3 * 2^-1075 at each end. The exact n.(x(s) - r(s)) is (1 - s) of its value at t0 plus s of that at t1, so |q(x) -
-// n.(x(s) - r(s))| <= 4.01 u R + 3.01 u R + 5 * 2^-1075. The same for b, and the last difference adds u |q(a) - q(b)|
-// <= 2.01 u R. Together at most 17 u R + 2^-1070; the right side of the comparison is at least 64 u R (1 - 4 u) -
-// 2^-1074 + 2^-1022 (or that rounded, less another u of it), which is more. In two dimensions there is a term less.
+// second, then n.(a(s) - b(s)) > 0. Proof. Let R = |n|_1 reach. If some n_k or d_k is infinite or NaN, or 4 R
+// overflows, the right side is infinite or NaN and the comparison fails. Otherwise nothing overflows. n_k (x - r)_k =
+// n_k d_k (1 + e), and fl(n.d) takes a product and at most two sums per term, so |p(x) - n.(x - r)| <= 4.01 u R + 3 *
+// 2^-1075 at each end. The exact n.(x(s) - r(s)) is (1 - s) of its value at t0 plus s of that at t1, so |q(x) - n.(x(s)
+// - r(s))| <= 4.01 u R + 3.01 u R + 5 * 2^-1075. The same holds for b, and the last difference adds u |q(a) - q(b)| <=
+// 2.01 u R. Together the error is at most 17 u R + 2^-1070. The right side of the comparison is at least 64 u R (1 - 4
+// u) - 2^-1074 + 2^-1022 (or that rounded, less another u of it), which is more. In two dimensions there is a term
+// less.
 //
 // Between the ends of the interval n.(a - b) is linear, so a direction that separates at both ends separates throughout
 // (design 1).
 //
-// What this does not do: it finds no directions (proofs/prover/cells/direction_search.h), and when it says no that
-// means nothing.
+// A negative answer proves nothing. proofs/prover/cells/direction_search.h finds directions.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@
 
 namespace noli {
 
-/// A direction, as an argument from which Dim is not deduced.
+/// A direction; as an argument it does not deduce Dim.
 template <int Dim>
 using Direction = std::type_identity_t<std::array<double, Dim>>;
 
@@ -52,7 +52,7 @@ struct Interval {
   double middle() const { return 0.5 * (begin + end); }
 };
 
-/// The corners of two parts relative to a common origin: d[end][axis][lane]; lanes 0 to 3 are the first part (some of
+/// The corners of two parts relative to a common origin: d[end][axis][lane]. Lanes 0 to 3 are the first part (some of
 /// its corners more than once), lanes 4 to 7 the second.
 template <int Dim>
 struct PartPair {
@@ -62,8 +62,8 @@ struct PartPair {
 
 namespace detail {
 
-// The right side of the claim is error_share (4 |n|_1 reach) + error_least. Proved in proofs/gappa, whose Constants.v
-// has the same numbers; a test compares.
+// The right side of the claim is error_share (4 |n|_1 reach) + error_least. It is proved in proofs/gappa; a test
+// compares these numbers with Constants.v there.
 constexpr double error_share = 0x1p-49;
 constexpr double error_least = 0x1p-1022;  // the least normal double
 
@@ -90,8 +90,7 @@ double reach_of(const std::array<std::array<std::array<double, 8>, Dim>, 2>& d) 
 
 }  // namespace detail
 
-/// The pair of two parts, neither of them empty. The origin is corner `origin` of a. `Cell`: MovingCell, or one that
-/// has more to it.
+/// The pair of two nonempty parts. The origin is corner `origin` of a. `Cell`: MovingCell, or derived from it.
 template <class Cell>
 PartPair<Cell::dim> pair_of(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, std::size_t origin) {
   constexpr int Dim = Cell::dim;
@@ -126,7 +125,7 @@ Projections project(const PartPair<Dim>& pair, const Direction<Dim>& n) {
   return p;
 }
 
-/// From the ends of the step to the ends of an interval.
+/// Interpolates from the ends of the step to the ends of an interval.
 inline Projections at_ends(const Projections& step, Interval interval) {
   if (interval.begin == 0 && interval.end == 1) return step;
   Projections p;
@@ -152,15 +151,15 @@ inline double gap_above(const std::array<double, 8>& q) {
   return low - high;
 }
 
-/// How far it is below.
+/// How far the first part is below the second at one end.
 inline double gap_below(const std::array<double, 8>& q) {
   const double high = std::max(std::max(q[0], q[1]), std::max(q[2], q[3]));
   const double low = std::min(std::min(q[4], q[5]), std::min(q[6], q[7]));
   return low - high;
 }
 
-/// +1 if n, -1 if -n certainly separates the first part (above) from the second over the interval; 0 if neither could
-/// be shown.
+/// +1 if n, -1 if -n certainly separates the first part (above) from the second over the interval; 0 if neither is
+/// certain.
 template <int Dim>
 int separates(const PartPair<Dim>& pair, const Direction<Dim>& n, Interval interval = {}) {
   const Projections p = at_ends(project(pair, n), interval);
@@ -170,7 +169,7 @@ int separates(const PartPair<Dim>& pair, const Direction<Dim>& n, Interval inter
   return 0;
 }
 
-/// From the middle of the second part to the middle of the first, at mid-time, four times as long.
+/// Four times the vector from the middle of the second part to the middle of the first at mid-time.
 template <int Dim>
 Direction<Dim> between_middles(const PartPair<Dim>& pair) {
   Direction<Dim> n;

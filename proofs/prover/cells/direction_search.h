@@ -6,13 +6,13 @@
 //   D        the differences a - b of all corners of the two parts, at both ends of the interval: at most 18 points
 //   simplex  at most Dim + 1 points of D;  v  the point of their hull nearest to the origin
 //
-// A direction n separates iff n.w > 0 for all w in D, so there is one iff the hull of D misses the origin, and then the
+// A direction n separates iff n.w > 0 for all w in D. So there is one iff the hull of D misses the origin, and then the
 // hull's point nearest to the origin is one. It is approached as in Gilbert, Johnson and Keerthi, "A fast procedure for
 // computing the distance between complex objects" (1988): add the point of D that is lowest along v to the simplex,
-// reduce it to what is nearest to the origin, repeat; but stop as soon as v separates by the proved test of
-// proofs/prover/cells/direction.h, which is why nothing here has to be accurate.
+// reduce the simplex to its face nearest to the origin, repeat. The search stops as soon as v separates by the proved
+// test of proofs/prover/cells/direction.h, so nothing here has to be accurate.
 //
-// What this does not do: a failure proves nothing.
+// A failure proves nothing.
 #pragma once
 
 #include <array>
@@ -43,8 +43,7 @@ std::array<double, N> minus(const std::array<double, N>& a, const std::array<dou
 template <int Dim>
 class Simplex {
  public:
-  /// Adds a point, keeps the face nearest to the origin and moves `v` to it. False if the origin is inside, as far as
-  /// rounding lets one see.
+  /// Adds a point, keeps the face nearest to the origin and moves `v` to it. False if the origin appears to be inside.
   bool add(const Vec<Dim>& w, Vec<Dim>& v) {
     w_[size_++] = w;
     switch (size_) {
@@ -105,7 +104,7 @@ class Simplex {
     return true;
   }
 
-  /// Whether the origin is on the other side of the face a, b, c than the point `opposite`.
+  /// Whether the face a, b, c is between the origin and the point `opposite`.
   bool outside(Index a, Index b, Index c, Index opposite) const {
     const Vec<Dim> u = minus(w_[b], w_[a]), v = minus(w_[c], w_[a]);
     const Vec<Dim> n = formula::cross(u, v);
@@ -113,7 +112,7 @@ class Simplex {
     return (origin > 0) != (inside > 0);
   }
 
-  /// The nearest face has the new point in it: the three faces around that are looked at.
+  /// The nearest face contains the new point, so only the three faces around it are tried.
   bool add_fourth(Vec<Dim>& v) {
     if constexpr (Dim == 3) {
       constexpr std::array<std::array<Index, 3>, 3> others = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
@@ -156,8 +155,8 @@ Vec<Dim> lowest(const PartPair<Dim>& pair, const std::array<double, 8>& q, doubl
 /// Rounds of a search for a direction. Chosen by measuring simulated cloth and solids.
 inline constexpr int search_rounds = 10;
 
-/// A direction n for which the first part is above the second by more than bound_of(n) over the interval, starting from
-/// the guess `v`; nothing if none was found in `rounds` rounds or there seems to be none.
+/// Searches from the guess `v` for a direction n along which the first part is above the second by more than
+/// bound_of(n) over the interval. Nothing if none was found in `rounds` rounds, or there seems to be none.
 template <int Dim, class Bound>
 std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair, Direction<Dim> v, Interval interval,
                                                       int rounds, const Bound& bound_of) {
@@ -176,7 +175,7 @@ std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair,
   return std::nullopt;
 }
 
-/// A direction that certainly separates the two.
+/// A direction that certainly separates the two parts.
 template <int Dim>
 std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair, const Direction<Dim>& v,
                                                       Interval interval, int rounds) {
@@ -184,7 +183,7 @@ std::optional<std::array<double, Dim>> find_direction(const PartPair<Dim>& pair,
                              [&](const Direction<Dim>& n) { return error_bound<Dim>(n, pair.reach); });
 }
 
-/// How far apart the parts are at one time, or more than that: the least length of a vector that was met in the search.
+/// An upper bound of the distance of the parts at one time: the least length of a vector in the search.
 template <int Dim>
 double distance_at_most(const PartPair<Dim>& pair, double s, int rounds) {
   detail::Simplex<Dim> simplex;
@@ -192,7 +191,7 @@ double distance_at_most(const PartPair<Dim>& pair, double s, int rounds) {
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const Projections p = at_ends(project(pair, v), {s, s});
-    if (!simplex.add(detail::lowest(pair, p.q[0], s), v)) return least;  // inside, or flat: rounding does not tell
+    if (!simplex.add(detail::lowest(pair, p.q[0], s), v)) return least;  // inside or flat; rounding hides which
     const double length = std::sqrt(formula::dot(v, v));
     if (!(length < least)) return least;
     least = length;

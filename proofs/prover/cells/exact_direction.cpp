@@ -9,7 +9,7 @@ namespace noli {
 
 namespace {
 
-/// What a direction has to separate, and how far.
+/// What a direction has to separate, and by how much.
 struct Question {
   const std::vector<IntegerVector>& differences;
   const Integer& least2;
@@ -23,7 +23,7 @@ bool separates(const IntegerVector& n, const Question& question) {
   });
 }
 
-/// n with so many bits in its longest component, the rest rounded away.
+/// n rounded to this many bits in its longest component.
 IntegerVector rounded(const IntegerVector& n, std::size_t bits) {
   std::size_t most = 0;
   for (const Integer& part : n) most = std::max(most, part.bit_length());
@@ -37,8 +37,8 @@ IntegerVector rounded(const IntegerVector& n, std::size_t bits) {
   return result;
 }
 
-/// The same direction in as few bits as are enough, of some numbers that are tried; nothing if it takes more than a
-/// proof has room for.
+/// The direction with the fewest bits, of some numbers to try, that still separates; nothing if it needs more bits than
+/// a proof allows.
 std::optional<IntegerVector> shortened(const IntegerVector& n, const Question& question) {
   constexpr std::array<std::size_t, 14> tried = {9,   15,  22,  30,   40,   60,   90,
                                                  130, 200, 400, 1000, 2400, 5000, most_direction_bits};
@@ -49,7 +49,7 @@ std::optional<IntegerVector> shortened(const IntegerVector& n, const Question& q
   return std::nullopt;
 }
 
-/// From the origin to the line through w along u, times |u|^2.
+/// The vector from the origin to the line through w along u, times |u|^2.
 IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
   const Integer uu = formula::dot(u, u), wu = formula::dot(w, u);
   return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};

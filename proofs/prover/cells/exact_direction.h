@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A direction that separates two parts, in exact arithmetic: what is left where doubles see none.
+// Finds a direction that separates two parts in exact arithmetic, for parts for which doubles find none.
 //
 // Notation
 //   D     the differences of a point of the first part and one of the second, at both ends of a piece of time and at
-//         each breakpoint between, all times the same positive number: integer vectors
-//   least2  the square of the distance asked for, times that of this number
+//         each breakpoint in between, multiplied by one positive number: integer vectors
+//   least2  the square of the distance asked for, times the square of this number
 //
 // A direction n separates iff n.w > 0 and (n.w)^2 > least2 n.n for all w in D. If there is one, the point of the hull
-// of D nearest to the origin is one, and it is the nearest point of a hull of at most as many points as there are
-// dimensions: so it is enough to look at the directions that one, two or three points of D give.
+// of D nearest to the origin is one. It is the nearest point of a hull of at most as many points as there are
+// dimensions. So it is enough to try the directions given by one, two or three points of D.
 //
-// What this does not do: it is not fast; it takes some 10 ms for 18 differences.
+// It takes some 10 ms for 18 differences.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@ namespace noli {
 
 using IntegerVector = std::array<Integer, 3>;
 
-/// Of a component: a sint (proofs/FORMAT.md, section 2) has 1,200 groups of seven bits, one of them for the sign, and
-/// one is left for what rounding carries.
+/// The limit for a component: a sint (proofs/FORMAT.md, section 2) has 1,200 groups of seven bits. One bit is for the
+/// sign, and one is reserved for a carry in rounding.
 constexpr std::size_t most_direction_bits = 8398;
 
-/// A direction that separates, with as few bits as are enough; nothing if more than most_direction_bits are needed.
+/// A direction that separates, with few bits; nothing if more than most_direction_bits are needed.
 /// Precondition: `differences` is not empty.
 std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2);
 

@@ -16,8 +16,8 @@ struct Occurrence {
   std::uint32_t cell;
   FeatureMask bit;
 
-  /// Whether a has the lesser vertices; the first of them is not looked at. (The comparisons of std::array are calls of
-  /// memcmp, which is slow for so little.)
+  /// Whether a has the lesser vertices, ignoring the first. (Comparisons of std::array call memcmp, which is slow for
+  /// so few bytes.)
   friend bool less_after_first(const Occurrence& a, const Occurrence& b) {
     for (std::size_t i = 1; i < N; ++i) {
       if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i];
@@ -32,7 +32,7 @@ struct Occurrence {
   }
 };
 
-/// Sorts those of one least vertex by the others; what is equal stays in order.
+/// Sorts occurrences with the same least vertex by the other vertices. Stable.
 template <std::size_t N>
 void sort_bucket(std::span<Occurrence<N>> bucket) {
   constexpr std::size_t few = 24;
@@ -46,10 +46,10 @@ void sort_bucket(std::span<Occurrence<N>> bucket) {
   }
 }
 
-/// All occurrences by vertices, then cell, then bit. `visit(add)` calls add for each of them, by cell, then bit.
+/// All occurrences sorted by vertices, then cell, then bit. `visit(add)` calls add for each of them, by cell, then bit.
 template <std::size_t N, class Visit>
 std::vector<Occurrence<N>> sorted_occurrences(std::size_t vertex_count, const Visit& visit) {
-  std::vector<std::size_t> begin(vertex_count + 1, 0);  // of the bucket of each least vertex, once it has been added up
+  std::vector<std::size_t> begin(vertex_count + 1, 0);  // of the bucket of each least vertex, after partial_sum
   visit([&](const Occurrence<N>& o) { ++begin[o.vertices[0] + 1]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<Occurrence<N>> sorted(begin.back());
@@ -121,7 +121,7 @@ void assign_edges(const Mesh& mesh, CellFeatures& features) {
   assign_all<2>(mesh.vertex_count, visit, features);
 }
 
-/// Marks the listed ones among the cells [first, last), all of one kind.
+/// Marks the listed cells among [first, last), which are all of one kind.
 void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFeatures& features) {
   if (first == last) return;
   const auto visit = [&mesh, first, last](const auto& add) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which cell a vertex or an edge belongs to, so that each pair of features is counted once.
+// Assigns each vertex and edge to one cell, so that each pair of features is counted once.
 //
 // Notation
 //   corner   a place in a cell's list of vertices; edge i of a face goes from corner i to corner i + 1, cyclically
 //   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it. A pair of features is
-//            examined where the obligations of its two owners are
-//   listed   a face or loose edge such that no cell of its kind before it has the same vertices
-//
-// What this does not do: it looks at no coordinates.
+//            examined at the obligation of its two owners
+//   listed   a face or loose edge, if no earlier cell of its kind has the same vertices
 #pragma once
 
 #include <array>
@@ -28,7 +26,7 @@ constexpr FeatureMask cell_bit = 64;
 /// For each cell, which of its features belong to it.
 struct CellFeatures {
   std::vector<FeatureMask> owned;   ///< the corners and edges it owns; cell_bit if it is listed
-  std::vector<FeatureMask> shared;  ///< the corners and edges that another cell has as well
+  std::vector<FeatureMask> shared;  ///< the corners and edges that another cell has too
 };
 
 /// Number of corners of a cell: 3 (a face), 2 (a loose edge) or 1 (a loose point).
@@ -50,9 +48,9 @@ inline std::array<VertexId, 3> corners(const Mesh& mesh, std::uint32_t cell) {
 /// The corners of a cell in ascending order; a loose edge or point repeats its last one.
 std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count);
 
-/// Finds the owners; which cells are listed only if that is asked for (for a strict verification; else none is).
-/// A vertex or edge that a cell has twice counts once, at its first place. Time and memory linear in the mesh (if no
-/// vertex has more than a few cells).
+/// Finds the owners. With `list_cells` (for a strict verification) also marks listed cells; otherwise none is. A vertex
+/// or edge that a cell has twice counts once, at its first place. Time and memory are linear in the mesh (if no vertex
+/// has more than a few cells).
 CellFeatures find_owners(const Mesh& mesh, bool list_cells);
 
 }  // namespace noli

@@ -35,7 +35,7 @@ bool leaves_in_order(const CellShape& a, const CellShape& b, const SmallPair& pa
   return has_edge(b, pair.other) && leaves_vertex_edge(a, pair.vertex, b, pair.other);
 }
 
-/// The least two different cells that leave the pair over. Sorts the cells.
+/// The first two different cells that leave the pair over. Sorts the cells.
 std::optional<Leftovers::CellPair> least_of(std::vector<Leftovers::NumberedShape>& cells, const SmallPair& pair) {
   std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -98,7 +98,7 @@ bool Leftovers::is_narrow(const Key& key) { return key[1] == key[2] || key[2] ==
 const std::vector<Leftovers::Entry>& Leftovers::entries(bool narrow) const {
   Index& index = narrow ? narrow_ : wide_;
   std::call_once(index.made, [&] {
-    index.entries.clear();  // what a thread without memory has left
+    index.entries.clear();  // a thread that ran out of memory may have left some
     for (std::size_t i = 0; i < count_; ++i) {
       const NumberedShape cell = shape_of_(i);
       const Key key = key_of(cell.shape);
@@ -110,7 +110,7 @@ const std::vector<Leftovers::Entry>& Leftovers::entries(bool narrow) const {
   return index.entries;
 }
 
-/// Adds the first two of the cells that have this key: more of them leave nothing else over.
+/// Adds the first two of the cells that have this key: further ones leave nothing else over.
 void Leftovers::add_alike(bool narrow, const Key& key, std::vector<NumberedShape>& cells) const {
   const std::vector<Entry>& all = entries(narrow);
   auto at = std::lower_bound(all.begin(), all.end(), key, [](const Entry& e, const Key& k) { return e.key < k; });
@@ -119,7 +119,7 @@ void Leftovers::add_alike(bool narrow, const Key& key, std::vector<NumberedShape
   }
 }
 
-/// Adds cells that have at most two different vertices, all of them among these.
+/// Adds cells with at most two different vertices, all of them in `vertices`.
 void Leftovers::add_narrow(const std::vector<VertexId>& vertices, std::vector<NumberedShape>& cells) const {
   for (const VertexId v : vertices) {
     for (const VertexId corners : {1U, 2U, 3U}) add_alike(true, {corners, v, v, v}, cells);

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small pairs of features that nothing larger stands for.
+// Finds small pairs of features that no larger pair stands for.
 //
 // Notation
 //   small pair   in 3D a vertex and an edge, or two vertices; in 2D two vertices; without a common vertex
-//   left over    by two different cells: one of the two features is on one cell and the other on the other, and no edge
-//                (or, for a vertex against an edge, face) that one cell has around one of them is without the vertices
-//                of the other. So (c, ab) is left over by the loose edges ac and ab, but not by cd and ab, where the
-//                edge_edge pair (cd, ab) stands for it; (p, q) is left over by two loose points p and q, but not by p
-//                and the loose edge qr, where the vertex_edge pair (p, qr) does
+//   left over    by two different cells: each cell has one of the two features. And a larger feature of one cell (an
+//                edge; for a vertex against an edge, also a face) that contains one feature of the pair always has a
+//                vertex of the other. So (c, ab) is left over by the loose edges ac and ab, but not by cd and ab, where
+//                the edge_edge pair (cd, ab) stands for it; (p, q) is left over by two loose points p and q, but not by
+//                p and the loose edge qr, where the vertex_edge pair (p, qr) stands for it
 //
-// Two cells that leave a pair over have no vertices but those of the pair: loose points, loose edges around one vertex,
-// or faces that are listed twice, have a vertex twice, or have an edge or corner that is a loose cell too. A pair that
-// any two cells leave over is counted, once: at one pair of cells, which is found here.
-//
-// What this does not do: it looks at no coordinates.
+// Two cells that leave a pair over have only vertices of the pair: loose points, loose edges around one vertex, or
+// faces that are listed twice, have a vertex twice, or have an edge or corner that is a loose cell too. A pair that any
+// two cells leave over is counted once, at one pair of cells, which is found here.
 #pragma once
 
 #include <array>
@@ -41,7 +39,7 @@ struct CellShape {
   std::array<VertexId, 2> edge(unsigned i) const { return {vertices[i], vertices[i == 2 ? 0 : i + 1]}; }
 };
 
-/// A vertex against an edge, or against another vertex, which `other` then has twice.
+/// A vertex against an edge, or against another vertex, which is then twice in `other`.
 struct SmallPair {
   FeaturePair pair;
   VertexId vertex;
@@ -73,8 +71,8 @@ inline bool few_vertices(const CellShape& a, const CellShape& b) {
 bool leaves_vertex_edge(const CellShape& a, VertexId v, const CellShape& b, const std::array<VertexId, 2>& edge);
 bool leaves_vertex_vertex(const CellShape& a, VertexId v, const CellShape& b, VertexId w);
 
-/// Where the small pairs of a mesh are counted. Nothing is done before the first question; then it takes O(n log n)
-/// time and memory linear in the cells, once.
+/// The cells at which the small pairs of a mesh are counted. The first question makes an index, in O(n log n) time and
+/// memory linear in the cells.
 class Leftovers {
  public:
   struct NumberedShape {
@@ -94,7 +92,7 @@ class Leftovers {
   }
 
  private:
-  /// Number of corners and the vertices, ascending: cells that are alike in this leave the same pairs over.
+  /// Number of corners and the vertices, ascending: cells with equal keys leave the same pairs over.
   using Key = std::array<VertexId, 4>;
   struct Entry {
     Key key;
@@ -113,7 +111,7 @@ class Leftovers {
 
   std::size_t count_;
   std::function<NumberedShape(std::size_t)> shape_of_;
-  mutable Index narrow_, wide_;  ///< cells of at most two different vertices; faces of three
+  mutable Index narrow_, wide_;  ///< cells with at most two different vertices; faces with three
 };
 
 }  // namespace noli

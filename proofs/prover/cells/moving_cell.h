@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cells and vertices as the verifier reads them.
+// Cells and vertices in the layout that the verifier reads.
 //
 // Notation
-//   corner   as in proofs/prover/cells/features.h; corners beyond the cell's own repeat its last one, which changes no
-//            hull
+//   corner   as in proofs/prover/cells/features.h; corners beyond the cell's own repeat its last one, which does not
+//            change hulls
 //
-// The usual obligations are settled from StepCell: one cache line a cell and one a vertex, and the vertices of a mesh
-// are few enough to stay near. What is left is gathered in a MovingCell.
+// The usual obligations are settled from StepCell: one cache line per cell and per vertex, and the vertices of a mesh
+// are few enough to stay in the cache. For the rest, positions are gathered in a MovingCell.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace noli {
 
-/// What is known of a cell wherever it is.
+/// The part of a cell that does not depend on positions.
 struct CellNames {
   std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/cells/features.h
   std::uint32_t cell;
@@ -38,7 +38,7 @@ inline CellNames names_of(const Mesh& mesh, const CellFeatures& features, std::u
 
 inline CellShape shape_of(const CellNames& cell) { return {cell.vertices, cell.corners}; }
 
-/// The places of a vertex at both ends of the step.
+/// The positions of a vertex at both ends of the step.
 template <int Dim>
 struct alignas(Dim == 3 ? 64 : 32) MovingVertex {
   std::array<BothEnds, Dim> x;
@@ -67,7 +67,7 @@ struct alignas(64) MovingCell : CellNames {
 
   /// x[end][axis][corner]: positions at the beginning (0) and the end (1) of the step.
   std::array<std::array<std::array<double, 4>, Dim>, 2> x;
-  /// In 3D: the normal of a face at mid-time, as rounding has it (a guess, never relied on); else zero.
+  /// In 3D: the normal of a face at mid-time, rounded (only a guess); otherwise zero.
   std::array<double, Dim> normal;
 
   Point<Dim> position(int end, int corner) const {
@@ -96,7 +96,7 @@ inline std::array<double, 3> mid_normal(const MovingCell<3>& c) {
 
 }  // namespace detail
 
-/// Gives a cell the positions of another's corners.
+/// Gives `c` the positions of the corners of `cell`.
 template <int Dim, class Cell>
 void gather_corners(const Cell& cell, MovingCell<Dim>& c) {
   static_cast<CellNames&>(c) = cell;
@@ -119,7 +119,7 @@ MovingCell<Dim> gather(const StepCell<Dim>& cell) {
   return c;
 }
 
-/// The reach of two cells (proofs/prover/cells/direction.h) that stay where their ends say.
+/// The reach of two cells (proofs/prover/cells/direction.h) that move along straight lines.
 template <int Dim>
 double widened(double reach, const StepCell<Dim>& /*a*/, const StepCell<Dim>& /*b*/) {
   return reach;

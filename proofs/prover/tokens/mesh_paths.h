@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Short paths along a mesh, for the ring rule: features that a path of fewer than K edges joins may be nearer than the
-// least distance.
+// Finds short paths along a mesh, for the ring rule: features joined by a path of fewer than K edges may be nearer than
+// the least distance.
 //
 // Notation
 //   K       the ring, at least 1
 //   step    an edge of a path: the cell that has both of its ends, and the end
 //
-// What this does not do: with K = 1 there are no paths but from a vertex to itself, and nothing is kept for it.
+// With K = 1 the only paths are from a vertex to itself, and nothing is stored.
 #pragma once
 
 #include <array>

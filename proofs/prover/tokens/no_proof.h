@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a proof is given up for.
+// The error when the search for a proof gives up.
 #pragma once
 
 #include <stdexcept>
 
 namespace noli {
 
-/// Two parts for which no direction was found, however short the piece.
+/// No direction was found for two parts, however short the piece.
 struct NoProof : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -54,7 +54,7 @@ std::string labels_payload(const ProofHeader& header) {
   return bytes;
 }
 
-/// Of the breakpoints of a step.
+/// The hash of the breakpoints of a step.
 Sha256Digest breakpoints_hash(const WorldLines& lines, int dimension, double shift) {
   Sha256 hash;
   std::string bytes;

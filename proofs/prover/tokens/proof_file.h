@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes proof files (proofs/FORMAT.md): the claim, then step after step, each committed when it is complete.
-//
-// What this does not do: it makes no proof and reads none.
 #pragma once
 
 #include <memory>
@@ -28,32 +26,32 @@ struct ProofHeader {
   std::size_t vertices = 0;
   const Mesh* mesh = nullptr;                   ///< after merging
   std::span<const std::uint32_t> labels;        ///< of its cells
-  std::optional<Sha256Digest> cells = {};       ///< cells_hash, where it is known
-  std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that stands for it, ascending
+  std::optional<Sha256Digest> cells = {};       ///< cells_hash, if known
+  std::vector<std::array<VertexId, 2>> merged;  ///< a vertex and the one that represents it, ascending
   LabelPairs excluded;
   double eta = 0;
   std::uint32_t ring = 1;
 };
 
-/// Of the cells with their labels, as the claim has it.
+/// The hash of the cells with their labels, for the claim.
 Sha256Digest cells_hash(const ProofHeader& header);
 
-/// The units of a step's numbers, of which one is eta. `shift`: added to all times of the lines.
+/// The units of a step's numbers, eta included. `shift`: added to all times of the lines.
 motion::Scale units_of(const WorldLines& lines, int dimension, double shift, double eta);
 
 class ProofFile {
  public:
   static constexpr FourLetters content = four_letters("PROF");
 
-  /// Writes the header. Throws what the sink throws, here and below.
+  /// Writes the header. This and all below throw what the sink throws.
   ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header);
-  /// Goes on behind a commit, as BlockWriter.
+  /// Goes on after a commit, like BlockWriter.
   ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, const ProofHeader& header);
 
   enum class Kind : std::uint8_t { proof = 0, witness = 1 };
 
-  /// Begins step `number`, whose times are those of `lines` and `shift` more. In two dimensions third coordinates count
-  /// as 0.
+  /// Begins step `number`, whose times are those of `lines` plus `shift`. In two dimensions third coordinates count as
+  /// 0.
   void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift);
   /// The same for a window of a run, with the hash of its group.
   void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift, const Sha256Digest& hash);
@@ -61,7 +59,7 @@ class ProofFile {
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
   /// All tokens of a step.
   void tokens(const JoinedTokens& all);
-  /// All tokens that `make` gives away, or, when it returns false or throws, no step.
+  /// All tokens that `make` passes on. If it returns false or throws, the step is dropped.
   bool tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make);
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
   void commit() { blocks_.commit(); }

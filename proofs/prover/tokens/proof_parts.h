@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is left of two cells: the directions that separate the two parts, piece of time by piece.
+// Proves that two parts of cells are apart: finds directions that separate them, piece of time by piece.
 //
 // Notation
 //   part     vertices of a cell, by a mask of its corners
 //   piece    the share [k / 2^e, (k + 1) / 2^e] of the step
-//   span     the piece in which they are to be separated
-//   chord, radius   as in proofs/prover/windows/chord.h; of a vertex without breakpoints inside the radius is 0, and
-//                   its chord
-//            is its motion
+//   span     the piece in which they must be separated
+//   chord, radius   as in proofs/prover/windows/chord.h; for a vertex without breakpoints inside, the radius is 0, and
+//                   the chord is its motion
 //   margin   as in proofs/prover/windows/window_cell.h
 //
-// A piece is halved until a direction is found: as long as doubles do, by the proved test of
-// proofs/prover/cells/direction.h, with a margin for the radii; where they do not and the piece is short, in exact
-// arithmetic. The direction is then written with as few bits as pass the same test.
+// A piece is halved until a direction is found. The search uses doubles and the proved test of
+// proofs/prover/cells/direction.h, with a margin for the radii; if that fails and the piece is short, exact arithmetic.
+// The direction is then written with as few bits as pass the same test.
 //
-// What this does not do: it decides no contact. Two parts that meet are halved until it gives up.
+// It does not decide contact: if two parts meet, it halves until it gives up.
 #pragma once
 
 #include <cmath>
@@ -54,8 +53,8 @@ struct Piece {
 
   Piece half(long which) const { return {k * Integer(2) + Integer(which), e + 1}; }
 
-  /// Doubles around it: exact for the whole step, else at most a little outside it. Nothing where doubles cannot tell
-  /// its ends apart.
+  /// Doubles around the piece: exact for the whole step, otherwise at most a little outside it. Nothing if doubles
+  /// cannot tell its ends apart.
   std::optional<Span> times(const WorldLines& lines) const {
     const double first = lines.first_time(), last = lines.last_time();
     if (e == 0) return Span{first, last};
@@ -67,17 +66,17 @@ struct Piece {
   }
 };
 
-/// Settles what is left of one pair of cells.
+/// Writes the tokens for the remaining parts of one pair of cells.
 template <int Dim>
 class ProofParts {
  public:
-  /// `eta`, `paths`: the least distance, and who may be nearer than that (nobody needs it where it is 0).
+  /// `eta`, `paths`: the least distance, and the paths that allow features to be nearer (not needed if eta is 0).
   ProofParts(const WorldLines& lines, const Piece& span, double eta, const MeshPaths* paths, const StopSignal& stop,
              Tokens& tokens)
       : lines_(lines), span_(span), distance_(eta), paths_(paths), stop_(stop), tokens_(tokens) {}
 
-  /// Writes the tokens for parts of two cells that have no vertex in common; false, and not all of them, if it was
-  /// stopped. Throws TooNear, NoProof.
+  /// Writes the tokens for parts of two cells that have no vertex in common. False if it was stopped; the tokens are
+  /// then incomplete. Throws TooNear, NoProof.
   bool settle(std::uint32_t i, const ProofCell& a, std::uint32_t j, const ProofCell& b) {
     first_cell_ = i;
     second_cell_ = j;
@@ -100,8 +99,8 @@ class ProofParts {
     double strays = 0;  ///< the greatest radii of both parts, added
   };
 
-  /// From which depth on exact arithmetic is asked, and when to give up: at that depth neighbouring doubles are farther
-  /// apart than anything moves.
+  /// The depth from which exact arithmetic is tried, and the depth at which to give up: there, neighbouring doubles are
+  /// farther apart than anything moves.
   static constexpr unsigned exact_from = 6, give_up = 1000, give_up_near = 120, interval_bits = 20;
   static constexpr std::size_t most_exact = 60;
 
@@ -120,8 +119,8 @@ class ProofParts {
     return n.has_value();
   }
 
-  /// Two parts that are not seen to be far enough apart: where a path joins two of their vertices, what has both need
-  /// only be disjoint.
+  /// Two parts that were not shown to be far enough apart. If a path joins two of their vertices, features with both
+  /// need only be disjoint.
   void go_around(const Part& a, const Part& b, const Pair& pair) {
     for (std::size_t i = 0; i < a.cell.corners; ++i) {
       for (std::size_t j = 0; j < b.cell.corners; ++j) {
@@ -141,8 +140,8 @@ class ProofParts {
     halve(a, b, pair, span_);
   }
 
-  /// Parts that are certainly nearer than the least distance at one of a few times of the piece, whose chords they
-  /// have. (In three dimensions a vertex strays from its chord by less than two radii.)
+  /// Throws TooNear if the parts are certainly nearer than the least distance at one of a few times of the piece, whose
+  /// chords they have. (In three dimensions a vertex strays from its chord by less than two radii.)
   void refuse_near(const Pair& pair, const Piece& piece, int times) const {
     for (int k = 0; k <= times; ++k) {
       const double part = static_cast<double>(k) / times;
@@ -151,7 +150,7 @@ class ProofParts {
     }
   }
 
-  /// What n.(a - b) has to exceed: rounding and radii, and the least distance.
+  /// The bound that n.(a - b) must exceed: rounding, radii and the least distance.
   double bound_of(const Pair& pair, const Direction<Dim>& n) const {
     const double bound = error_bound<Dim>(n, pair.points.reach);
     return distance_ == 0 ? bound : bound + distance_ * std::sqrt(formula::dot(n, n)) * (1 + 0x1p-48);
@@ -168,7 +167,7 @@ class ProofParts {
                                [&](const Direction<Dim>& n) { return bound_of(pair, n); });
   }
 
-  /// Parts that are just as far apart as the least distance are not farther.
+  /// Parts exactly at the least distance are too near.
   [[noreturn]] void give_up_at(const Piece& piece) const {
     if (distance_ == 0) throw NoProof("no direction separates two parts, however short the time");
     const Integer at = piece.k.is_zero() ? piece.k : piece.k + Integer(1);
@@ -206,7 +205,7 @@ class ProofParts {
     halve(a, b, whole, piece);
   }
 
-  /// With chords over the piece.
+  /// The pair, with chords over the piece.
   std::optional<Pair> pair_in(const Part& a, const Part& b, const Piece& piece) const {
     const auto times = piece.times(lines_);
     if (!times) return std::nullopt;
@@ -244,7 +243,7 @@ class ProofParts {
     return chords;
   }
 
-  /// As few bits as separate by the same test.
+  /// Writes the direction with as few bits as separate by the same test.
   void write(const Pair& pair, const Direction<Dim>& n, const Interval& interval) {
     last_ = n;
     put_direction(
@@ -257,8 +256,8 @@ class ProofParts {
     Integer least2;
   };
 
-  /// A vertex and its breakpoints from the last one not after the piece's begin to the first one not before its end:
-  /// all that say where it is within the piece.
+  /// The breakpoints of a vertex that determine its motion within the piece: from the last one not after the piece's
+  /// begin to the first one not before its end.
   struct Stretch {
     std::span<const double> times;
     std::span<const Position> positions;
@@ -272,7 +271,8 @@ class ProofParts {
     Integer operator()(double t) const { return exact::coordinate<Integer>(t, range) << e; }
   };
 
-  /// At both ends of the piece and at each breakpoint of the parts between. Nothing if they are too many.
+  /// The differences at both ends of the piece and at each breakpoint of the parts in between. Nothing if they are too
+  /// many.
   std::optional<Differences> differences_in(const Part& a, const Part& b, const Piece& piece) const {
     std::vector<Stretch> vertices;
     std::size_t of_a = 0, breakpoints = 2;
@@ -327,14 +327,14 @@ class ProofParts {
     return result;
   }
 
-  /// The time k / 2^e of the way through the step, in the unit, whose e is the same.
+  /// The time at the share k / 2^e of the step, in the unit, which has the same e.
   Integer time_of(const Integer& k, const Unit& unit) const {
     const Integer first = exact::coordinate<Integer>(lines_.first_time(), unit.range);
     const Integer last = exact::coordinate<Integer>(lines_.last_time(), unit.range);
     return (first << unit.e) + (last - first) * k;
   }
 
-  /// By search, as breakpoints of the whole step can be many.
+  /// Uses binary search, as the step can have many breakpoints.
   Stretch stretch(VertexId v, const Piece& piece) const {
     const auto t = lines_.times(v);
     const auto order = [&](double time, const Integer& k) {
@@ -350,7 +350,7 @@ class ProofParts {
     return {t.subspan(first, last + 1 - first), lines_.positions(v).subspan(first, last + 1 - first)};
   }
 
-  /// Multiplies each vector so that all have the same denominator, which takes the place of the first.
+  /// Multiplies each vector so that all have the same denominator, which replaces the first one.
   static void make_common(Differences& differences, std::vector<Integer>& denominators) {
     Integer common = denominators[0];
     for (const Integer& d : denominators) mpz_lcm(common.get(), common.get(), d.get());
@@ -377,13 +377,13 @@ class ProofParts {
 
   const WorldLines& lines_;
   Piece span_;
-  double distance_;  ///< the least distance, or 0 where parts need only be disjoint
+  double distance_;  ///< the least distance, or 0 if parts need only be disjoint
   const MeshPaths* paths_;
   const StopSignal& stop_;
   Tokens& tokens_;
   bool stopped_ = false;
   std::uint32_t first_cell_ = 0, second_cell_ = 0;
-  std::optional<Direction<Dim>> last_;  ///< has separated two parts of the same cells
+  std::optional<Direction<Dim>> last_;  ///< separated other parts of the same cells
 };
 
 }  // namespace noli

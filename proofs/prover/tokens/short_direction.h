@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions of few bits, as tokens.
+// Writes directions with few bits as tokens.
 //
-// A direction whose components are whole numbers of at most ten bits is a token of five bytes, and an axis one of a
-// single byte. It is rounded before it is tested, so that what is tested is what is written.
+// A direction whose components are integers of at most ten bits takes a token of five bytes, and an axis one byte. It
+// is rounded before it is tested, so the tested direction is the one that is written.
 #pragma once
 
 #include <cmath>
@@ -14,20 +14,20 @@
 
 namespace noli {
 
-/// n, scaled and rounded to whole numbers from -511 to 511. Where its components are tiny, infinite or not numbers, the
-/// result is none that passes a test.
+/// n, scaled and rounded to integers from -511 to 511. If its components are tiny, infinite or NaN, the result passes
+/// no test.
 template <std::size_t Dim>
 [[gnu::always_inline]] inline std::array<double, Dim> shortened(const std::array<double, Dim>& n) {
   double most = std::max(std::abs(n[0]), std::abs(n[1]));
   if constexpr (Dim == 3) most = std::max(most, std::abs(n[2]));
   const double scale = 511 / most;
-  constexpr double whole = 0x1.8p52;  // to which only whole numbers can be added
+  constexpr double whole = 0x1.8p52;  // adding it rounds to an integer
   std::array<double, Dim> m;
   for (std::size_t k = 0; k < Dim; ++k) m[k] = (n[k] * scale + whole) - whole;
   return m;
 }
 
-/// Writes a direction of whole numbers from -511 to 511.
+/// Writes a direction of integers from -511 to 511.
 template <std::size_t Dim>
 [[gnu::always_inline]] inline void put_short(const std::array<double, Dim>& m, double sign, Tokens& tokens) {
   std::array<int, 3> n{};
@@ -38,7 +38,7 @@ template <std::size_t Dim>
   tokens.axis(k, n[k] > 0);
 }
 
-/// Writes a direction that passes a test, with as few bits as pass it too.
+/// Writes a direction that passes a test, with as few bits as still pass it.
 template <std::size_t Dim, class Passes>
 void put_direction(const std::array<double, Dim>& n, const Passes& passes, Tokens& tokens) {
   std::array<double, Dim> m = shortened(n);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the walk over a step leaves behind, so that a proof can be made of it.
+// The output of the walk over a step, from which its proof is made.
 //
-// Most obligations are closed by a direction that is found on the way. Parts for which none was found have to be cut
-// into short pieces of time, which takes long, and for ever where they meet. So this waits until the whole step is
-// known to have no contact.
+// Most obligations are closed by a direction that the walk finds. Parts for which it finds none must be cut into short
+// pieces of time, which takes long, and never ends if they meet. So this waits until the whole step is known to have no
+// contact.
 #pragma once
 
 #include <optional>
@@ -30,10 +30,10 @@ struct OpenParts {
 template <int Dim, class Out>
 struct WalkTokens {
   Out tokens;
-  std::vector<OpenParts<Dim>> open;  ///< none after a contact was found
+  std::vector<OpenParts<Dim>> open;  ///< incomplete after a contact was found
 };
 
-/// The tokens for parts that do not meet. Nothing when none were found, which takes long, or it was stopped.
+/// The tokens for parts that do not meet. Nothing if none were found, which takes long, or if it was stopped.
 template <int Dim>
 std::optional<Tokens> prove_apart(const OpenParts<Dim>& parts, const StopSignal& stop);
 

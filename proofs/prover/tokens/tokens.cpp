@@ -48,7 +48,7 @@ std::string encoded_join(std::span<const std::string> trees) {
 void Tokens::add_piece(std::size_t bytes) {
   constexpr std::size_t first_size = 1024;  // many lists are short
   if (!pieces_.empty()) pieces_.back().size = used();
-  // Less than longest_piece, so that a place at its end is not one at the beginning of the next.
+  // Less than longest_piece, so that a place at its end differs from one at the beginning of the next piece.
   const std::size_t size = std::max(pieces_.empty() ? first_size : longest_piece - 1, bytes);
   pieces_.push_back({std::make_unique_for_overwrite<char[]>(size), size});
   end_ = pieces_.back().bytes.get();
@@ -63,7 +63,7 @@ void Tokens::append(const std::string& token) {
 void Tokens::truncate(std::size_t place) {
   if (pieces_.empty()) return;
   const std::size_t last = place / longest_piece;
-  if (last + 1 < pieces_.size()) {  // what is left of a piece that was left behind is not used again
+  if (last + 1 < pieces_.size()) {  // the free rest of an earlier piece is not used again
     pieces_.resize(last + 1);
     limit_ = pieces_.back().bytes.get() + pieces_.back().size;
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tokens of a proof as bytes (proofs/FORMAT.md, sections 2 and 4).
-//
-// What this does not do: it knows of no obligations.
+// Writes the tokens of a proof as bytes (proofs/FORMAT.md, sections 2 and 4).
 #pragma once
 
 #include <array>
@@ -24,13 +22,13 @@ namespace noli {
 void put_uint(std::string& bytes, std::uint64_t value);
 /// Appends a sint.
 void put_sint(std::string& bytes, const Integer& value);
-/// The payload of block TREE, where each node over m > 1 leaves has the first m / 2 of them in its left child.
+/// The payload of block TREE, in which each node over m > 1 leaves has the first m / 2 of them in its left child.
 std::string encoded_tree(std::span<const std::uint32_t> leaf_cells);
 
-/// The same of a node over some trees, halved in the same way.
+/// The same for a node over some trees, halved in the same way.
 std::string encoded_join(std::span<const std::string> trees);
 
-/// The first byte of each token; what follows it is in proofs/FORMAT.md.
+/// The first byte of each token; proofs/FORMAT.md has the rest.
 enum class TokenCode : std::uint8_t {
   halve = 0x00,
   left = 0x01,
@@ -39,21 +37,21 @@ enum class TokenCode : std::uint8_t {
   one = 0x04,
   both = 0x05,
   excluded = 0x06,
-  axis = 0x08,  ///< and 2 k more along axis k, and 1 more where the first group is the lower one
+  axis = 0x08,  ///< plus 2 k for axis k, plus 1 if the first group is the lower one
   empty = 0x0e,
   short_direction = 0x10,
   direction = 0x11,
-  drop = 0x20,  ///< and k more for common vertex k
+  drop = 0x20,  ///< plus k for common vertex k
   ring = 0x30
 };
 
-/// A list of tokens, in pieces that are added as it grows: what was written is never moved.
+/// A list of tokens, in pieces that are added as it grows; tokens are never moved.
 class Tokens {
  public:
   static constexpr bool on = true;
   /// A payload of TOKS is no longer than this, and no token goes beyond its payload.
   static constexpr std::size_t longest_payload = 1 << 20;
-  /// A place in the list: the number of a piece times this, and an offset.
+  /// A place in the list is the number of a piece times this, plus an offset.
   static constexpr std::size_t longest_piece = 1 << 16;
 
   void halve() { put(TokenCode::halve); }
@@ -96,22 +94,22 @@ class Tokens {
   }
   void direction(const std::array<Integer, 3>& n);
 
-  /// Where the next token comes.
+  /// The place of the next token.
   std::size_t place() const { return pieces_.empty() ? 0 : (pieces_.size() - 1) * longest_piece + used(); }
   /// Forgets the tokens from a place on.
   void truncate(std::size_t place);
-  /// Gives `take` the tokens between two places, in pieces that fit a payload each.
+  /// Passes the tokens between two places to `take`, in pieces that fit a payload each.
   void give(std::size_t begin, std::size_t end, const std::function<void(std::string_view)>& take) const;
   void give(const std::function<void(std::string_view)>& take) const { give(0, place(), take); }
 
  private:
   struct Piece {
     std::unique_ptr<char[]> bytes;  // not a string: that would be filled with zeros first
-    std::size_t size;               ///< capacity while it is the last one, then what is used
+    std::size_t size;               ///< capacity while it is the last piece, then the bytes used
   };
 
   std::size_t used() const { return static_cast<std::size_t>(end_ - pieces_.back().bytes.get()); }
-  /// Room for a token of so many bytes.
+  /// Room for a token of this many bytes.
   char* room(std::size_t bytes) {
     if (static_cast<std::size_t>(limit_ - end_) < bytes) add_piece(bytes);
     return end_;
@@ -124,11 +122,11 @@ class Tokens {
   void append(const std::string& token);
 
   std::vector<Piece> pieces_;
-  char* end_ = nullptr;    ///< in the last piece: where the next token comes
-  char* limit_ = nullptr;  ///< its end
+  char* end_ = nullptr;    ///< the place of the next token, in the last piece
+  char* limit_ = nullptr;  ///< the end of the last piece
 };
 
-/// The walk calls this instead of Tokens if no proof is wanted; it does nothing.
+/// Replaces Tokens if no proof is wanted; does nothing.
 struct NoTokens {
   static constexpr bool on = false;
 
@@ -143,16 +141,16 @@ struct NoTokens {
   void truncate(std::size_t /*place*/) {}
 };
 
-/// Tokens, and others put in between.
+/// Tokens, with others inserted.
 struct JoinedTokens {
   Tokens tokens;
-  std::vector<std::size_t> places;     ///< in the tokens, ascending: where the others come
+  std::vector<std::size_t> places;     ///< in the tokens, ascending: where the others are inserted
   std::vector<JoinedTokens> inserted;  ///< one for each place
 
   void give(const std::function<void(std::string_view)>& take) const;
 };
 
-/// Puts small pieces together, so that a payload has some 64 kB.
+/// Joins small pieces, so that a payload has some 64 kB.
 class TokenBlocks {
  public:
   explicit TokenBlocks(const std::function<void(std::string_view)>& take) : take_(take) {}

@@ -13,10 +13,10 @@ namespace noli {
 
 namespace {
 
-/// Groups of more faces are not tried, groups of fewer are not worth it.
+/// Larger groups are not tried, smaller groups are not worth it.
 constexpr std::uint32_t most_faces = 256;
 constexpr std::uint32_t least_faces = 4;
-/// Faces of a chart are inclined to the mean normal by at most about 75 degrees: this is the cosine.
+/// The cosine of the largest angle between a face of a chart and the mean normal, about 75 degrees.
 constexpr double least_cosine = 0.26;
 
 /// The faces at each vertex.
@@ -43,7 +43,7 @@ struct Incidence {
 struct Rectangle {
   Point2 low, high;
 
-  /// Whether the inside of this one has a point in common with the other.
+  /// Whether the interior of this rectangle has a point in common with the other.
   bool overlaps(const Rectangle& o) const {
     return low[0] < o.high[0] && o.low[0] < high[0] && low[1] < o.high[1] && o.low[1] < high[1];
   }
@@ -109,7 +109,7 @@ class ChartMaker {
     return true;
   }
 
-  /// Two axes of the plane to which the group is projected, and its normal; the origin.
+  /// The plane to which the group is projected: two axes, the normal, and the origin.
   struct Frame {
     Vector u, v, normal;
     Position origin;
@@ -153,7 +153,7 @@ class ChartMaker {
     return !(formula::dot(n, frame_.normal) >= least_cosine * std::sqrt(formula::dot(n, n)));
   }
 
-  /// Puts a face into S, if it is not. False if it is steep or not laid out counterclockwise.
+  /// Puts a face into S, unless it is there. False if it is steep or not laid out counterclockwise.
   bool take(std::uint32_t f) {
     if (seen_[f] == stamp_) return true;
     seen_[f] = stamp_;
@@ -191,7 +191,7 @@ class ChartMaker {
     return true;
   }
 
-  /// (2) and (3).
+  /// Tests (2) and (3).
   bool edges_allow_it() {
     edges_.clear();
     for (const std::uint32_t f : faces_) {
@@ -216,7 +216,7 @@ class ChartMaker {
     return true;
   }
 
-  /// (4), for a point near the middle of the group's first face.
+  /// Tests (4), for a point near the middle of the group's first face.
   bool covers_once() const {
     const auto& first = mesh_.faces[faces_[0]];
     const Point2 a = place(first[0]), b = place(first[1]), c = place(first[2]);
@@ -263,10 +263,10 @@ class ChartMaker {
   Charts& charts_;
   Incidence incidence_;
   std::vector<std::uint32_t> leaf_of_;  ///< by face
-  std::vector<std::uint32_t> seen_;     ///< by face, the stamp of the attempt in which it was last looked at
+  std::vector<std::uint32_t> seen_;     ///< by face, the stamp of the last attempt that visited it
   std::uint32_t stamp_ = 0;
 
-  // The attempt at hand.
+  // The current attempt.
   Group group_;
   Frame frame_{};
   Rectangle q_{};

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A straight line near which a world line stays for a while, and how near.
+// Computes a straight line near a world line over a time interval, and how far the world line strays from it.
 //
 // Notation
 //   u          2^-53; fl(.) rounds to nearest
-//   [b, e]     the while: b < e within [T0, T1]
-//   x(t)       one coordinate of the world line, exactly; x_a, x_b its rounded values at b and e, which are exact where
-//              b, e are breakpoints
+//   [b, e]     the interval: b < e within [T0, T1]
+//   x(t)       one coordinate of the world line, exactly; x_a, x_b its rounded values at b and e, which are exact if b,
+//              e are breakpoints
 //   L(t)       the line through (b, x_a) and (e, x_b);   low, high  its least and greatest deviation (rounded) x_k -
 //              L(t_k) over the breakpoints b < t_k < e, and 0
 //   chord      L moved by fl((low + high) / 2), its ends rounded: x_t0 at b, x_t1 at e
-//   M          a bound of all values in play
+//   M          a bound of all values involved
 //
 // Claim: |x(t) - chord(t)| <= radius for all t in [b, e], and fl(x_t0 - radius), fl(x_t0 + radius) (and the same with
 // x_t1) are bounds of chord -+ the true deviation, too.
-// Proof. Where b is no breakpoint, w = (b - t_k) / (t_k+1 - t_k) has a relative error of 3.01 u, the difference of two
-// positions is at most 2 M and has one of u; so x_a is wrong by at most (6.1 + 2 + 2 + 1.1) u M < 12 u M. At a
-// breakpoint inside, (t_k - b) / (e - b), taken as a product with a rounded reciprocal, has a relative error of 4.01 u;
-// so L(t_k) is wrong by at most (8.1 + 2 + 2 + 1.1) u M and the deviation, at most 4 M, by 4 u M more: 18 u M. Between
-// breakpoints x - L is linear. Moving L rounds by 2 u M in the middle, 3 u M at the ends, 4 u M in the half width. In
-// all 27 u M, and 8 u M for the two bounds and 5 u M for the sum below; the radius has 64 u M to spare. Products may
-// underflow: less than 2^-1070 in all, for which 2^-1021 is added. Where something overflows, or e - b or its
-// reciprocal is beyond the normal doubles, the radius is infinite and the chord zero.
-// A world line without breakpoints inside and with breakpoints at both ends is its chord: then the radius is 0.
+// Proof. If b is not a breakpoint, w = (b - t_k) / (t_k+1 - t_k) has a relative error of 3.01 u; the difference of two
+// positions is at most 2 M and has one of u. So the error of x_a is at most (6.1 + 2 + 2 + 1.1) u M < 12 u M. At a
+// breakpoint inside, (t_k - b) / (e - b), computed as a product with a rounded reciprocal, has a relative error of
+// 4.01 u. So the error of L(t_k) is at most (8.1 + 2 + 2 + 1.1) u M, and that of the deviation, at most 4 M, 4 u M
+// more: 18 u M. Between breakpoints x - L is linear. Moving L rounds by 2 u M in the middle, 3 u M at the ends, 4 u M
+// in the half width. The total is 27 u M, plus 8 u M for the two bounds and 5 u M for the sum below; the radius has a
+// margin of 64 u M. Products may underflow by less than 2^-1070 in all, for which 2^-1021 is added. If something
+// overflows, or e - b or its reciprocal is beyond the normal doubles, the radius is infinite and the chord zero.
+// A world line without breakpoints inside and with breakpoints at both ends is its own chord: then the radius is 0.
 //
-// What this does not do: it does not look for the narrowest strip, only for the one along L.
+// The strip is along L, so it need not be the narrowest one.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +63,7 @@ struct WorldLine {
 
 namespace detail {
 
-/// One end of a chord before it is moved, with a bound of the values that it comes from.
+/// One end of a chord before it is moved, with a bound of the values from which it is computed.
 template <int Dim>
 struct ChordEnd {
   std::array<double, Dim> x, most;

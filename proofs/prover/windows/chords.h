@@ -2,10 +2,8 @@
 //
 // Positions of vertices in a span of a window, for the walk over pairs of groups: along their chords, with radii.
 //
-// Groups of one part are settled at once where the part is monotone (proofs/prover/windows/monotone.h): a sheet in a
-// rectangle around both, another part in a chart that holds both.
-//
-// What this does not do: it makes no bounds (proofs/prover/windows/window_boxes.h).
+// Two groups of one part are settled at once if the part is monotone around both (proofs/prover/windows/monotone.h): a
+// sheet in a rectangle around both, another part in a chart that contains both.
 #pragma once
 
 #include "proofs/prover/group_pair.h"
@@ -15,11 +13,11 @@
 
 namespace noli {
 
-/// What tokens have to show, and when to give up.
+/// What tokens must prove, and when to give up.
 struct SpanProof {
   Piece span;
-  double eta;              ///< the least distance, which the radii of the chords have room for
-  const MeshPaths* paths;  ///< who may be nearer than that
+  double eta;              ///< the least distance, for which the radii of the chords have room
+  const MeshPaths* paths;  ///< paths between features that may be nearer
   const StopSignal& stop;
 };
 
@@ -29,7 +27,7 @@ class Chords {
  public:
   static constexpr int dim = Dim;
   static constexpr bool straight = false;
-  static constexpr std::uint32_t least_grain = 64;  ///< cells of a task, at least
+  static constexpr std::uint32_t least_grain = 64;  ///< the least number of cells of a task
   using Cell = ChordCell<Dim>;
   using Gathered = WindowCell<Dim>;
   using Tally = WindowTally;
@@ -60,13 +58,13 @@ class Chords {
   bool from_the_beginning() const { return begin_time() == lines_.first_time(); }
   Gathered at_begin(const Gathered& cell) const { return pieces_.at_begin(cell); }
 
-  /// Writes the tokens for parts without a common vertex, or some of them: false if it was stopped.
+  /// Writes the tokens for parts without a common vertex. False if it was stopped; the tokens are then incomplete.
   bool prove_apart(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part, Tokens& tokens) const {
     ProofParts<Dim> parts(lines_, proof_->span, proof_->eta, proof_->paths, proof_->stop, tokens);
     return parts.settle(a.cell, vertices_of(a, a_part), b.cell, vertices_of(b, b_part));
   }
 
-  /// Where the first piece begins in which no direction separates two parts, if there is one.
+  /// The beginning of the first piece in which no direction separates two parts, if there is one.
   std::optional<double> resisting(const Gathered& a, CornerMask a_part, const Gathered& b, CornerMask b_part,
                                   Tally& tally) const {
     return pieces_.resisting(a, a_part, b, b_part, tally);
@@ -84,7 +82,7 @@ class Chords {
     return vertices;
   }
 
-  /// Pairs of fewer cells are settled one by one without asking whether the sheet is monotone around them.
+  /// Pairs of smaller groups are settled cell by cell, without a test whether the sheet is monotone around them.
   static constexpr std::uint32_t worth_asking = 8;
 
   /// Whether the chart of the first group is monotone and covers the second.

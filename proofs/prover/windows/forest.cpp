@@ -13,11 +13,12 @@ namespace noli {
 
 namespace {
 
-/// Smaller parts gain nothing from a tree of their own, and pairs of trees are looked at one by one.
+/// Smaller parts gain nothing from a tree of their own. The number of parts is limited, as every pair of trees is
+/// tested.
 constexpr std::size_t least_part = 32;
 constexpr std::size_t most_parts = 256;
 
-/// What the median split looks at.
+/// The input of the median split.
 struct Entry {
   std::array<float, 3> centre{};
   std::uint32_t cell = 0;
@@ -29,7 +30,7 @@ float rounded(double x) {
   return static_cast<float>(std::clamp(x, -most, most));
 }
 
-/// Scaled into [-1, 1], all axes alike.
+/// Positions scaled into [-1, 1], by the same factor on all axes.
 std::vector<std::array<double, 3>> scaled(std::span<const Position> x) {
   std::array<double, 3> middle{};
   double most = 0;
@@ -92,7 +93,7 @@ Extent extent_of(const std::array<VertexId, 3>& v, std::span<const Point2> r) {
           above(std::max({r[v[0]][0], r[v[1]][0], r[v[2]][0]})), above(std::max({r[v[0]][1], r[v[1]][1], r[v[2]][1]}))};
 }
 
-/// For each vertex the length of the shortest edge of a cell that it is an end of; infinite if there is none.
+/// For each vertex the length of the shortest edge of a cell at it; infinite if there is none.
 std::vector<float> sizes_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
   std::vector<float> size(x.size(), std::numeric_limits<float>::infinity());
   const auto add = [&](VertexId a, VertexId b) {
@@ -114,7 +115,7 @@ std::vector<float> sizes_of(const Mesh& mesh, std::span<const Position> x, int d
   return size;
 }
 
-/// Sheets and other parts, no more than so many.
+/// Sheets and other parts, at most `most_parts` of them.
 Sheets parts_of(const Mesh& mesh, std::span<const Position> x, int dimension) {
   Sheets parts = find_sheets(mesh, x, dimension, least_part);
   parts.faces.resize(std::min(parts.faces.size(), most_parts));

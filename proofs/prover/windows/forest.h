@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cells of a mesh in binary trees: one for each sheet, one for each other part of some size, one for all the rest.
-// It depends on the mesh and one set of positions only, so it is made once for a run.
+// The cells of a mesh in binary trees: one for each sheet, one for each other large part, and one for all the rest. It
+// depends only on the mesh and one set of positions, so it is made once for a run.
 //
 // Notation
 //   tree     as in proofs/prover/hierarchy.h: a node over m > 1 leaves has the first m / 2 in its left child; nodes and
-//            leaves of all trees are numbered through
-//   part, sheet   as in proofs/prover/windows/layout.h and sheet.h; the tree of a sheet splits the layout, the others
-//                 the
-//            positions. Parts that are no sheets have charts (proofs/prover/windows/charts.h)
-//   extent   of a group of a sheet: the rectangle that its layout fills, rounded outwards
-//
-// What this does not do: it knows of no motion.
+//            leaves are numbered across all trees
+//   part, sheet   as in proofs/prover/windows/layout.h and sheet.h. The tree of a sheet splits the layout, the others
+//                 the positions. Parts that are not sheets have charts (proofs/prover/windows/charts.h)
+//   extent   of a group of a sheet: the bounding rectangle of its layout, rounded outwards
 #pragma once
 
 #include <cstdint>
@@ -31,7 +28,7 @@
 
 namespace noli {
 
-/// What is known of a cell whatever it does.
+/// The part of a cell that does not depend on its motion.
 struct Leaf : CellNames {
   std::uint32_t label;  ///< as in proofs/prover/cells/labels.h
 };
@@ -54,10 +51,10 @@ struct Tree {
   Group root;
   bool sheet = false;
   bool part = false;               ///< a sheet or another part
-  std::vector<VertexId> vertices;  ///< those of its cells, ascending
+  std::vector<VertexId> vertices;  ///< of its cells, ascending
 };
 
-/// Preconditions: as WindowVerifier, which also says what counts of the options; `x` has a position for each vertex; at
+/// Preconditions: as for WindowVerifier, which also says which options count; `x` has a position for each vertex; at
 /// least one cell.
 class Forest {
  public:
@@ -65,30 +62,29 @@ class Forest {
 
   /// Sheets first.
   const std::vector<Tree>& trees() const { return trees_; }
-  /// The part that both groups are of; nullptr if they are of different trees, or of that of the rest.
+  /// The part that contains both groups; nullptr if they are in different trees, or in the tree of the rest.
   const Tree* part_of(Group a, Group b) const;
   std::size_t node_count() const { return labels_.size(); }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   const Leaf& leaf(Group g) const { return leaves_[g.begin]; }
-  /// Whether two groups, each of one label, are not to be compared.
+  /// Whether two groups, each of one label, are not compared.
   bool left_out(Group a, Group b) const {
     const std::uint32_t of_a = labels_[a.node], of_b = labels_[b.node];
     return of_a != no_label && of_b != no_label && noli::left_out(of_a, of_b, exclusions_);
   }
-  /// The payload of block TREE (proofs/FORMAT.md): over all trees one that halves their list.
+  /// The payload of block TREE (proofs/FORMAT.md): all trees, joined by a tree that halves their list.
   std::string encoded() const;
 
-  /// The tree of the part that a vertex is in.
+  /// The tree of the part that contains a vertex.
   static constexpr std::uint32_t no_part = ~std::uint32_t{0};
   std::uint32_t part_of(VertexId v) const { return part_of_[v]; }
-  /// Of the edges of cells that end in a vertex, the shortest one's length at the given positions; infinite if none
-  /// does.
+  /// The length, at the given positions, of the shortest edge of a cell at a vertex; infinite if there is none.
   float size(VertexId v) const { return sizes_[v]; }
 
   const Charts& charts() const { return *charts_; }
   const Leftovers& leftovers() const { return leftovers_; }
 
-  /// By leaf and by node, for those in sheets.
+  /// By leaf and by group; only for sheets.
   const LaidFace& laid_face(std::size_t leaf) const { return laid_faces_[leaf]; }
   const Extent& extent(Group g) const { return extents_[g.node]; }
 
@@ -103,7 +99,7 @@ class Forest {
   std::vector<Leaf> leaves_;
   std::vector<LaidFace> laid_faces_;
   Exclusions exclusions_;
-  std::vector<std::uint32_t> labels_;  ///< of all cells of a node, or no_label
+  std::vector<std::uint32_t> labels_;  ///< by node: the label of all its cells, or no_label
   std::vector<Extent> extents_;
   std::optional<Charts> charts_;
   Leftovers leftovers_;

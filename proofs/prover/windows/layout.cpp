@@ -57,7 +57,7 @@ std::vector<Faces> parts_of(const Mesh& mesh) {
 /// Lays out one part.
 class Flattener {
  public:
-  /// `numbers`: for each vertex of the mesh one that nobody has used, and so they are left.
+  /// `numbers`: scratch space, one entry per vertex of the mesh; all are `unused` on entry and on exit.
   Flattener(const Mesh& mesh, const Faces& part, std::vector<std::uint32_t>& numbers) {
     for (const std::uint32_t f : part) {
       for (const VertexId v : mesh.faces[f]) {
@@ -75,7 +75,7 @@ class Flattener {
 
   static constexpr std::uint32_t unused = ~std::uint32_t{0};
 
-  /// Whether the part is a sheet; then writes down the layout of its vertices.
+  /// Whether the part is a sheet. If so, stores the layout of its vertices.
   bool lay_out(std::span<const Position> x, int dimension, std::vector<Point2>& layout) {
     project(x, dimension);
     if (!orient()) return false;
@@ -104,7 +104,7 @@ class Flattener {
     return sum;
   }
 
-  /// Seen along the axis along which it looks largest, scaled to [-1, 1].
+  /// Projects along the axis along which the part looks largest, and scales to [-1, 1].
   void project(std::span<const Position> x, int dimension) {
     std::size_t along = 2;
     if (dimension == 3) {
@@ -124,7 +124,7 @@ class Flattener {
     }
   }
 
-  /// Turns the faces as they are laid out counterclockwise. False if one is degenerate.
+  /// Makes the layout of all faces counterclockwise. False if one is degenerate.
   bool orient() {
     if (!std::ranges::all_of(r_, [](const Point2& r) { return std::isfinite(r[0] + r[1]); })) return false;
     for (LocalFace& f : faces_) {
@@ -135,8 +135,7 @@ class Flattener {
     return true;
   }
 
-  /// The places in the border that are corners of its convex hull, ascending. (Andrew's chain, on places in the
-  /// border.)
+  /// The places in the border that are corners of its convex hull, ascending (Andrew's monotone chain).
   std::vector<std::size_t> hull_of(const Border& border) const {
     std::vector<std::size_t> order(border.size()), hull;
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -158,7 +157,7 @@ class Flattener {
     return hull;
   }
 
-  /// Moves what is on the border between two corners of the hull to the straight line between them.
+  /// Moves the vertices of the border between two corners of the hull to the straight line between them.
   void move_to_hull(const Border& border) {
     const std::vector<std::size_t> hull = hull_of(border);
     for (std::size_t h = 0; h < hull.size(); ++h) {

@@ -5,13 +5,12 @@
 // Notation
 //   part     faces joined by vertices
 //
-// Where a layout comes from does not matter, as it is checked exactly. Here: two coordinates of the positions that are
-// given, scaled to the square [-1, 1]; what is on the border is moved to the convex hull, and everything a little
-// outwards the more the nearer it is to the middle of a side, so that straight borders become convex in spite of
-// rounding.
+// Any layout will do, as it is checked exactly. This one takes two coordinates of the given positions, scaled to the
+// square [-1, 1]. It moves the border to the convex hull. Then it moves everything a little outwards, more so near the
+// middle of a side, so that straight borders become convex despite rounding.
 //
-// What this does not do: closed surfaces, sheets with holes and parts that lie in several layers above the plane have
-// no layout here; for them nothing is gained and nothing lost.
+// Closed surfaces, sheets with holes and parts in several layers above the plane get no layout here; they are verified
+// without one.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +24,12 @@ namespace noli {
 
 struct Sheets {
   std::vector<std::vector<std::uint32_t>> faces;   ///< of each sheet, ascending
-  std::vector<std::vector<std::uint32_t>> others;  ///< of each other part with so many faces
-  std::vector<Point2> layout;                      ///< by vertex; of a vertex that is in no sheet meaningless
+  std::vector<std::vector<std::uint32_t>> others;  ///< of each other part with enough faces
+  std::vector<Point2> layout;                      ///< by vertex; meaningless for vertices outside sheets
 };
 
 /// Finds the sheets and other parts with at least `least_faces` faces, ordered by their first face. `x`: a position for
-/// each vertex, of which the third coordinate is not looked at in two dimensions. Linear in the mesh, but for sorting
-/// what is on the border.
+/// each vertex, whose third coordinate is ignored in two dimensions. Linear in the mesh, except for sorting the border.
 Sheets find_sheets(const Mesh& mesh, std::span<const Position> x, int dimension, std::size_t least_faces);
 
 }  // namespace noli

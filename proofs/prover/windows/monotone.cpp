@@ -36,7 +36,7 @@ Vector combination(double s, const Vector& a, double t, const Vector& b, double 
   return c;
 }
 
-/// p.f for f in a range, and by how much it may differ, rounding included.
+/// p.f for f in a range, and a bound of its deviation, rounding included.
 struct Product {
   double value, off;
 };
@@ -61,7 +61,7 @@ Products products(const Functionals& functionals, const TangentBox& box, int dim
   const Product qu = product(functionals.q, u), qv = product(functionals.q, v);
   constexpr double more = 1 + 0x1p-40;
   const double b = 0.5 * more * (std::abs(pv.value) + pv.off + std::abs(qu.value) + qu.off);
-  // What is not a number must not get lost among others.
+  // A NaN must not disappear in a comparison.
   if (!std::isfinite(b + pu.value + pu.off + qv.value + qv.off)) return {-1, -1, 0};
   return {pu.value - more * pu.off, qv.value - more * qv.off, b};
 }

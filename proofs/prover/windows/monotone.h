@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sheet that does not touch itself, shown by a few inequalities a face.
+// Shows with a few inequalities per face that a sheet does not touch itself.
 //
 // Notation
 //   K, r, D   a sheet, its layout and the convex polygon that it covers (proofs/prover/windows/sheet.h); R the edges of
 //             a face in the layout, a 2x2 matrix
-//   F         the map of K to where the sheet is at some time, linear on each face; E the edges of a face there
+//   F         the map of K to the positions of the sheet at some time, linear on each face; E the edges of a face there
 //   f_u, f_v  tangents of a face, the columns of E R^-1: how fast F moves as the layout moves along its first and its
 //             second axis
 //   p, q      two vectors;   a = p.f_u, c = q.f_v, 2 b = p.f_v + q.f_u
@@ -16,19 +16,19 @@
 // its length |d|, with the tangents of the face that it goes through, and (d_u p + d_v q) . (d_u f_u + d_v f_v) = a
 // d_u^2 + 2 b d_u d_v + c d_v^2 > 0. So (d_u p + d_v q) . (F(y) - F(x)) > 0.
 //
-// The tangents are affine in the positions. So while corners move linearly, they are between those at both ends, and
-// where corners stray by up to a radius the tangents do by as much times the entries of R^-1. What is kept of faces is
-// a box around their tangents at both ends, radii added: the inequalities have to hold for the whole box, be it that of
-// all faces together or, with the same p and q, that of each.
+// The tangents are affine in the positions. So while corners move linearly, the tangents are between those at both
+// ends. If corners stray by up to a radius, the tangents stray by that times the entries of R^-1. Faces are stored as a
+// box around their tangents at both ends, radii added. The inequalities must hold for the whole box: that of all faces
+// together or, with the same p and q, that of each face.
 //
-// Rounding. Positions are relative to an origin and rounded to float; what that costs is part of their radius. In place
-// of R^-1 there is M in float, with |R M - I| <= 2^-16 in each entry, so that E R^-1 is E M times a matrix that differs
-// from I by at most 2^-15 in each. E M takes a difference, a product and a sum of floats, 3 * 2^-24 of the sum of the
-// sizes of its terms. Both are less than 2^-14 times the sum of the sizes of all terms of f_u and f_v along the same
-// axis.
+// Rounding. Positions are relative to an origin and rounded to float; their radius includes this error. R^-1 is
+// replaced by M in float, with |R M - I| <= 2^-16 in each entry, so that E R^-1 is E M times a matrix that differs from
+// I by at most 2^-15 in each entry. E M takes a difference, a product and a sum of floats: an error of 3 * 2^-24 of the
+// sum of the sizes of its terms. Both errors are less than 2^-14 times the sum of the sizes of all terms of f_u and f_v
+// along the same axis.
 // Nothing overflows, as positions are below 2^60 and entries of M at most 2^30; products may underflow, by 2^-148 each.
 //
-// What this does not do: p and q are guessed from the middle of a box; that there are none is never shown.
+// p and q are guessed from the middle of a box; a failure proves nothing.
 #pragma once
 
 #include <algorithm>
@@ -40,15 +40,15 @@
 
 namespace noli {
 
-/// What a face needs of its layout: M by rows. Faces for which there is none have `usable` false.
+/// The layout of a face: M by rows. `usable` is false for faces without M.
 struct LaidFace {
   std::array<VertexId, 3> vertices;
   std::array<float, 4> m;
   bool usable;
 };
 
-/// Takes the face a, b, c of a layout. It is usable only if |R| |M| <= 2^30 (greatest entries), so that what is
-/// computed of R M is wrong by less than 2^-20.
+/// Takes the face a, b, c of a layout. It is usable only if |R| |M| <= 2^30 (greatest entries), so that the error of
+/// the computed R M is below 2^-20.
 inline LaidFace laid_face(const std::array<VertexId, 3>& vertices, const Point2& a, const Point2& b, const Point2& c) {
   const double r00 = b[0] - a[0], r01 = c[0] - a[0], r10 = b[1] - a[1], r11 = c[1] - a[1];
   const double per_area = 1 / (r00 * r11 - r01 * r10);
@@ -62,13 +62,13 @@ inline LaidFace laid_face(const std::array<VertexId, 3>& vertices, const Point2&
   return {vertices, m, near && most_m <= 0x1p30 && most_r * most_m <= 0x1p30};
 }
 
-/// A vertex near a straight line: places at both ends relative to some origin, and by how much they may be wrong. The
-/// last lane is zero.
+/// A vertex near a straight line: positions at both ends relative to some origin, and a bound of their errors. The last
+/// lane is zero.
 struct NearVertex {
   Lanes x_t0, x_t1, radius;
 };
 
-/// Bounds of the tangents of some faces. Empty: low above high.
+/// Bounds of the tangents of some faces. Empty if low is above high.
 struct TangentBox {
   Lanes low_u, high_u, low_v, high_v;
 };
@@ -95,7 +95,7 @@ inline TangentBox tangents_of(const LaidFace& face, const NearVertex& x, const N
   const float m0 = std::abs(m00) + std::abs(m01), m1 = std::abs(m10) + std::abs(m11);
   const Lanes a = greatest(absolute(a0), absolute(a1)), b = greatest(absolute(b0), absolute(b1));
   const Lanes stray = (x.radius + y.radius) * m0 + (x.radius + z.radius) * m1;
-  // The sum and the products of radii round by 4 * 2^-24 of them, which is less than the 2^-14 of `stray` added here.
+  // The sum and the products of radii round by 4 * 2^-24 of them; the 2^-14 of `stray` added here is more.
   const Lanes wrong = stray + (a * m0 + b * m1 + stray) * 0x1p-14F + 0x1p-120F;
   return {least(u0, u1) - wrong, greatest(u0, u1) + wrong, least(v0, v1) - wrong, greatest(v0, v1) + wrong};
 }
@@ -105,7 +105,7 @@ struct Functionals {
   std::array<double, 3> p, q;
 };
 
-/// The two for which a = c = 1, b = 0 in the middle of a box.
+/// The functionals for which a = c = 1, b = 0 in the middle of a box.
 Functionals functionals_for(const TangentBox& box, int dimension);
 
 /// The least a and c, the greatest |b| of some tangents.
@@ -119,12 +119,12 @@ inline Products merged(const Products& x, const Products& y) {
   return {std::min(x.a, y.a), std::min(x.c, y.c), std::max(x.b, y.b)};
 }
 
-/// Whether the inequalities hold for all of them; false if any is not a number.
+/// Whether the inequalities hold for all these tangents; false if any product is NaN.
 inline bool hold(const Products& x) {
   return x.a > 0 && x.c > 0 && x.a * x.c > (1 + 0x1p-40) * (x.b * x.b) + 0x1p-1000;
 }
 
-/// Whether they hold for all tangents in the box, with the functionals of its middle.
+/// Whether the inequalities hold for all tangents in the box, with the functionals of its middle.
 inline bool is_monotone(const TangentBox& box, int dimension) {
   return hold(products(functionals_for(box, dimension), box, dimension));
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What no direction over a span of a window settles, over pieces of it.
+// Settles two parts over pieces of a span, if no direction settles them over the whole span.
 //
 // Notation
-//   piece     a time [begin, end]; it is cut at breakpoints of the vertices in question only
+//   piece     a time interval [begin, end]; it is cut only at breakpoints of the vertices in question
 //   resists   no direction was found for two parts over a piece that has no breakpoint inside
 //
-// Where a piece of two parts resists, each of their pairs of features is settled in the same way over what is left of
-// the span, and is decided exactly over the pieces in which it resists; it counts once, in the first piece in which it
-// meets.
-//
-// What this does not do: it never looks at cells other than the two.
+// If two parts resist in a piece, each of their pairs of features is settled in the same way over the rest of the span,
+// and is decided exactly over the pieces in which it resists. It counts once, in the first piece in which it meets.
 #pragma once
 
 #include "proofs/prover/cells/direction_search.h"
@@ -21,7 +18,7 @@
 
 namespace noli {
 
-/// What one task of the verification of a window has found.
+/// The findings of one task of the verification of a window.
 using WindowTally = TallyWith<EarliestOf<ExactlyInWindow>>;
 
 template <int Dim>
@@ -31,7 +28,7 @@ class Pieces {
 
   Pieces(const WorldLines& lines, Span span) : lines_(lines), span_(span) {}
 
-  /// Where the first piece of the span begins in which two parts resist; nothing if none does.
+  /// The beginning of the first piece of the span in which two parts resist; nothing if they resist in none.
   std::optional<double> resisting(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part,
                                   WindowTally& tally) const {
     std::optional<double> begin;
@@ -78,8 +75,8 @@ class Pieces {
     return found;
   }
 
-  /// Settles two parts over a piece by directions; calls resist(a, b, piece), with the chords of the piece, on those
-  /// that resist, in order, until one returns false, and returns whether none did.
+  /// Settles two parts over a piece by directions. Calls resist(a, b, piece), with the chords of the piece, for each
+  /// piece that resists, in order, until a call returns false. Returns whether none did.
   template <class Resist>
   bool settle_over(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part, Span piece, WindowTally& tally,
                    const Resist& resist) const {
@@ -98,7 +95,7 @@ class Pieces {
            settle_over(a_now, a_part, b_now, b_part, piece, tally, resist);
   }
 
-  /// The median of the breakpoints inside of the vertex that has most; nothing if none has any.
+  /// The median of the breakpoints inside the piece, of the vertex that has most; nothing if none has any.
   std::optional<double> time_to_cut(const Cell& a, CornerMask a_part, const Cell& b, CornerMask b_part,
                                     Span piece) const {
     std::size_t most = 0;

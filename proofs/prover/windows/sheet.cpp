@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-/// For each vertex its edges to vertices of a higher number, in order: twice the other's number, and 1 more if the edge
+/// For each vertex its edges to vertices with a higher number, in order: twice the other's number, plus 1 if the edge
 /// comes from there.
 struct Edges {
   std::vector<std::uint32_t> begin;
@@ -41,8 +41,8 @@ Edges edges_of(std::span<const LocalFace> faces, std::size_t vertices) {
   return edges;
 }
 
-/// For each vertex the next on the border, `nowhere` if it is not on it; nothing at all if (2) does not hold or two
-/// edges of the border leave one vertex.
+/// For each vertex the next one on the border, or `nowhere` if it is not on the border. Empty if (2) does not hold or
+/// two edges of the border leave one vertex.
 std::vector<std::uint32_t> border_edges(const Edges& edges) {
   const auto vertices = static_cast<std::uint32_t>(edges.begin.size() - 1);
   std::vector<std::uint32_t> next(vertices, nowhere);
@@ -65,7 +65,8 @@ std::vector<std::uint32_t> border_edges(const Edges& edges) {
   return next;
 }
 
-/// Edges of a polygon ascend or descend (lexicographically); one that turns left does so once each while it turns once.
+/// Edges of a polygon ascend or descend (lexicographically). A polygon that turns left throughout turns around once iff
+/// its edges ascend once and descend once.
 bool turns_left_once(std::span<const std::uint32_t> border, std::span<const Point2> r) {
   const std::size_t n = border.size();
   const auto ascends = [&](std::size_t i) { return r[border[i % n]] < r[border[(i + 1) % n]]; };

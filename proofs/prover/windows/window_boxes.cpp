@@ -46,7 +46,8 @@ void WindowBoxes<Dim>::bound_roots() {
   }
 }
 
-/// The box of all faces is quick; that of each with the same functionals is sharper when the sheet is bent and askew.
+/// The box of all faces is quick. The box of each face, with the same functionals, is sharper if the sheet is bent and
+/// askew.
 template <int Dim>
 bool WindowBoxes<Dim>::sheet_monotone(const Tree& tree) const {
   const auto tangents = [&](std::size_t i) { return tangents_at(forest_.laid_face(tree.root.begin + i)); };
@@ -57,7 +58,7 @@ bool WindowBoxes<Dim>::sheet_monotone(const Tree& tree) const {
   return hold(merged_over(tree.root.count, threads_, of_face(0), of_face));
 }
 
-/// With the functionals for the mean of a few faces.
+/// Uses the functionals for the mean of a few faces.
 template <int Dim>
 bool WindowBoxes<Dim>::chart_monotone(std::span<const LaidFace> faces) const {
   Lanes u{}, v{};
@@ -73,7 +74,7 @@ bool WindowBoxes<Dim>::chart_monotone(std::span<const LaidFace> faces) const {
   return hold(all);
 }
 
-/// The radius has room for rounding (proofs/prover/windows/chord.h).
+/// The radius includes rounding (proofs/prover/windows/chord.h).
 template <int Dim>
 GroupBox WindowBoxes<Dim>::box_around(const VertexChord<Dim>& chord) const {
   GroupBox box{};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds of the groups of a forest over a span: boxes around the chords with their radii, for sheets boxes around the
-// tangents, and which charts are monotone.
+// Bounds of the groups of a forest over a span: boxes around the chords with their radii, boxes around the tangents of
+// sheets, and which charts are monotone.
 //
 // Notation
 //   box      as in proofs/prover/hierarchy.h: if on one axis the boxes of two groups are in the same strict order at
 //            both ends of the span, it separates the world lines throughout
 //   phi      as there, the same at both ends and for all trees
 //
-// What this does not do: bounds below the roots are made only for the trees for which that is asked.
+// Bounds below the roots exist only for trees given to make().
 #pragma once
 
 #include <vector>
@@ -21,21 +21,21 @@ namespace noli {
 template <int Dim>
 class WindowBoxes {
  public:
-  /// `monotone`: whether it is asked which sheets and charts are.
+  /// `monotone`: whether to find out which sheets and charts are monotone.
   WindowBoxes(const Forest& forest, const WindowChords<Dim>& chords, int threads, bool monotone = true);
 
-  /// Makes the bounds of all groups of some trees, given by their numbers.
+  /// Makes the bounds of all groups of the trees with these numbers.
   void make(const std::vector<std::size_t>& trees);
 
-  /// Of the whole of a tree.
+  /// The box of a whole tree.
   const GroupBox& root_box(std::size_t tree) const { return root_boxes_[tree]; }
   /// Whether a sheet is monotone as a whole.
   bool root_monotone(std::size_t tree) const { return root_monotone_[tree] != 0; }
-  /// Of a group of a tree for which they were made; tangents only of groups of sheets.
+  /// The bounds of a group of a tree given to make(); tangents only for groups of sheets.
   const GroupBox& box(Group g) const { return box_of(g.node); }
   const GroupBox& box_of(std::size_t node) const { return boxes_[node]; }
   const TangentBox& tangents(Group g) const { return tangents_[g.node]; }
-  /// Whether a chart of such a tree is monotone.
+  /// Whether a chart is monotone, for trees given to make().
   bool monotone(std::uint32_t chart) const { return monotone_[chart] != 0; }
 
  private:

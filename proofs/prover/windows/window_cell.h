@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A cell whose corners go along world lines: their chords over a while, and how far they stray.
+// A cell whose corners move along world lines: their chords over a time interval, and how far they stray from them.
 //
 // Notation
 //   radius   per axis, the greatest of the radii of the corners' chords (proofs/prover/windows/chord.h)
-//   margin   the greatest radius of two cells, added, over the axes. If n.(a - b) > margin |n|_1 for the chords at both
-//            ends of a while, then n.(a - b) > 0 for the world lines throughout
+//   margin   the sum of the radii of two cells, maximised over the axes. If n.(a - b) > margin |n|_1 for the chords at
+//            both ends of an interval, then n.(a - b) > 0 for the world lines throughout
 //   reach    as in proofs/prover/cells/direction.h, whose error bound is 2^-47 |n|_1 reach: raised by 2^47 margin it is
 //            a bound for both. (The sum and products round by at most 5 u of the margin's share; 2^-40 is added to it.)
 //
-// As in proofs/prover/cells/moving_cell.h, the usual obligations are settled from ChordCell, and what is left is
-// gathered in a WindowCell.
+// As in proofs/prover/cells/moving_cell.h, the usual obligations are settled from ChordCell; for the rest, positions
+// are gathered in a WindowCell.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct ChordCell : CellNames {
   }
 };
 
-/// The same with its positions.
+/// A cell of a mesh in a span, with its positions.
 template <int Dim>
 struct WindowCell : MovingCell<Dim> {
   std::array<double, Dim> radius;
@@ -42,7 +42,7 @@ struct WindowCell : MovingCell<Dim> {
   double radius_along(std::size_t axis) const { return radius[axis]; }
 };
 
-/// Of ChordCell or WindowCell.
+/// The margin of two cells, ChordCell or WindowCell.
 template <class Cell>
 double margin_of(const Cell& a, const Cell& b) {
   double margin = 0;
@@ -50,7 +50,7 @@ double margin_of(const Cell& a, const Cell& b) {
   return margin;
 }
 
-/// A reach that stands for rounding and margin.
+/// A reach that covers both rounding and margin.
 inline double raised(double reach, double margin) { return reach + 0x1p47 * (margin + 0x1p-40 * margin); }
 
 template <int Dim>
@@ -70,7 +70,7 @@ WindowCell<Dim> gather(const ChordCell<Dim>& cell) {
   return c;
 }
 
-/// The cell with the chords over [begin, end] of the corners in a part; what it says about others is meaningless.
+/// The cell with the chords over [begin, end] of the corners in a part; other corners are meaningless.
 template <int Dim>
 WindowCell<Dim> over(const WindowCell<Dim>& cell, CornerMask part, const WorldLines& lines, double begin, double end) {
   WindowCell<Dim> c = cell;

@@ -10,7 +10,7 @@ namespace noli {
 
 namespace {
 
-/// Not below x.
+/// A float not below x.
 float rounded_up(double x) {
   return x == 0 ? 0 : std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
@@ -29,7 +29,6 @@ NearVertex near_vertex(const VertexChord<Dim>& chord, const Position& origin) {
   return usable ? near : NearVertex{Lanes{}, Lanes{}, lanes(0x1p100F)};
 }
 
-/// Counters of some vertices.
 struct Counts {
   std::size_t inside = 0, restless = 0;
 };

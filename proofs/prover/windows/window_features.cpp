@@ -12,7 +12,6 @@ namespace noli {
 
 namespace {
 
-/// Segment of a world line.
 template <int Dim>
 LinearPath<Dim> path_of(const WorldLine& line, std::size_t segment) {
   LinearPath<Dim> path{line.t[segment], line.t[segment + 1], {}, {}};

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The exact question about a pair of features over a window.
+// Decides a pair of features exactly over a window.
 //
 // Notation
-//   piece   a time in which none of the vertices in question has a breakpoint: all move linearly
-//
-// What this does not do: it looks for no directions (proofs/prover/windows/pieces.h).
+//   piece   a time interval in which none of the vertices in question has a breakpoint: all move linearly
 #pragma once
 
 #include <array>
@@ -17,7 +15,7 @@
 
 namespace noli {
 
-/// The time t = begin + s (end - begin) for s in an enclosure, enclosed.
+/// Encloses the time t = begin + s (end - begin) for s in an enclosure.
 TimeEnclosure enclosure_in_window(TimeEnclosure s, double begin, double end);
 
 /// Whether, and when, two features first meet in the piece [begin, end], in the unit of the lines. `vertices`: as in

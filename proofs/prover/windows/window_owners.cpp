@@ -9,7 +9,7 @@ namespace noli {
 
 namespace {
 
-/// A vertex (twice), or an edge in ascending order.
+/// A vertex (twice), or an edge with its vertices in ascending order.
 using Key = std::uint64_t;
 Key key_of(VertexId a, VertexId b) { return Key{std::min(a, b)} << 32 | std::max(a, b); }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which cell a vertex or edge belongs to when pairs of scripted cells are not looked at.
+// Assigns vertices and edges to cells when pairs of scripted cells are not compared.
 //
-// A pair of features counts if some pair of cells that have them is looked at. It is examined where the obligations of
-// its two owners are; so a feature that a cell has which is not scripted must not belong to a scripted one.
-//
-// What this does not do: it looks at no coordinates.
+// A pair of features counts if some pair of cells that have them is compared. It is examined at the obligation of its
+// two owners. So a feature of a cell that is not scripted must not belong to a scripted one.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +13,8 @@
 
 namespace noli {
 
-/// Passes corners and edges that belong to a scripted cell on to the least cell that has them and is not scripted,
-/// where there is one. `labels`: as in proofs/prover/cells/labels.h.
+/// Moves corners and edges from a scripted owner to the least cell that has them and is not scripted, if there is one.
+/// `labels`: as in proofs/prover/cells/labels.h.
 void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint32_t>& labels, CellFeatures& features);
 
 }  // namespace noli

@@ -12,7 +12,7 @@ namespace {
 
 using Take = std::function<void(std::string_view)>;
 
-/// The walk over the roots of all trees, joined by a tree over their list, and their tokens.
+/// Walks over the roots of all trees, joined by a tree over their list, and writes their tokens.
 template <int Dim>
 class RootWalk {
  public:
@@ -110,7 +110,7 @@ class Proof {
     std::mutex mutex;
     std::vector<bool> ready(tasks.size(), false);
     std::size_t given = 0, place = 0;
-    bool failed = false;  // `take` has thrown: nothing is given twice
+    bool failed = false;  // `take` has thrown; nothing may be given twice
     walk.run([&](std::size_t task) {
       const std::lock_guard lock(mutex);
       ready[task] = walk.outcome(task).finished;

@@ -41,7 +41,7 @@ class Verification {
  private:
   static double middle(Span span) { return span.begin + 0.5 * (span.end - span.begin); }
 
-  /// Whether shorter spans are worth their while.
+  /// Whether shorter spans are worth the effort.
   bool cut_time(const WindowChords<Dim>& chords) const {
     const double cut = middle(chords.span);
     return chords.worth_cutting() && chords.span.begin < cut && cut < chords.span.end;
@@ -60,7 +60,7 @@ class Verification {
     return std::move(walk.sum());
   }
 
-  /// The obligations that are not settled for whole trees, with the bounds that they need.
+  /// The obligations that are not settled for whole trees. Makes the bounds that they need.
   std::vector<Obligation> settle_roots(WindowBoxes<Dim>& boxes, WindowTally& tally) const {
     const auto& trees = forest_.trees();
     std::vector<Obligation> open;
@@ -87,7 +87,7 @@ class Verification {
     return open;
   }
 
-  /// How much of the window is before a time.
+  /// The share of the window before a time.
   double share(double t) const {
     const double begin = lines_.first_time(), end = lines_.last_time();
     return t == end ? 1 : (t - begin) / (end - begin);

@@ -7,7 +7,7 @@ namespace {
 
 using Matrix = std::vector<std::vector<Polynomial>>;  ///< by row
 
-/// Without row 0 and a column.
+/// The matrix without row 0 and one column.
 Matrix minor_of(const Matrix& matrix, std::size_t column) {
   Matrix smaller(matrix.begin() + 1, matrix.end());
   for (auto& row : smaller) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
@@ -24,7 +24,7 @@ Polynomial determinant(const Matrix& matrix) {
   return all;
 }
 
-/// Numbers that add up to 0, and so do they times each of these coordinates of the points.
+/// Numbers, one per point, that add up to 0, and still do so when multiplied by any of these coordinates of the points.
 std::vector<Polynomial> affine_dependency(const std::vector<PolynomialPosition>& points,
                                           const std::vector<std::size_t>& coordinates) {
   Matrix rows = {
@@ -41,7 +41,7 @@ std::vector<Polynomial> affine_dependency(const std::vector<PolynomialPosition>&
   return numbers;
 }
 
-/// What vanishes when the dependency holds in the other coordinates too.
+/// A polynomial that vanishes when the dependency holds in the other coordinates too.
 Polynomial condition_of(const std::vector<PolynomialPosition>& points, const std::vector<std::size_t>& coordinates,
                         const std::vector<Polynomial>& numbers) {
   Polynomial common;
@@ -54,7 +54,7 @@ Polynomial condition_of(const std::vector<PolynomialPosition>& points, const std
   return common;
 }
 
-/// All choices of so many of the three coordinates, up to two.
+/// All choices of `count` of the three coordinates; `count` is at most two.
 std::vector<std::vector<std::size_t>> choices(std::size_t count) {
   if (count == 0) return {{}};
   if (count == 1) return {{0}, {1}, {2}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The features of two cells, tried pair by pair: sets of their vertices.
+// The features of two cells, as sets of their vertices.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct FeatureSides {
   }
 };
 
-/// Each once, ascending.
+/// The vertices of a cell, each once, ascending.
 inline std::vector<VertexId> vertices_of(const Mesh& mesh, std::uint32_t cell) {
   const auto v = corners(mesh, cell);
   std::vector<VertexId> result(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(corner_count(mesh, cell)));
@@ -34,7 +34,7 @@ inline std::vector<VertexId> vertices_of(const Mesh& mesh, std::uint32_t cell) {
   return result;
 }
 
-/// Those at the bits of the mask that are set.
+/// The vertices at the set bits of the mask.
 inline std::vector<VertexId> chosen(std::span<const VertexId> all, unsigned mask) {
   std::vector<VertexId> result;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -43,7 +43,7 @@ inline std::vector<VertexId> chosen(std::span<const VertexId> all, unsigned mask
   return result;
 }
 
-/// Of what kind they are; nothing if they are none that is looked at: p has no more vertices than q.
+/// The kind of the pair; nothing for other pairs, such as those in which p has more vertices than q.
 inline std::optional<FeaturePair> pair_of(const FeatureSides& s) {
   for (const FeaturePair pair : all_feature_pairs) {
     if (s.p.size() == first_size(pair) && s.q.size() == second_size(pair)) return pair;

@@ -3,10 +3,8 @@
 // The motion of a step in integers, for witnesses.
 //
 // Notation
-//   integer time   time in units of 2^q, the step's (proofs/FORMAT.md, STEP)
+//   integer time   time in the step's units of 2^q (proofs/FORMAT.md, STEP)
 //   segment        of a vertex, between two breakpoints
-//
-// What this does not do: it is not fast.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +19,12 @@
 
 namespace noli::witness {
 
-/// The step in integers: time in units of 2^q, of which `first_bits` more are taken for times between them.
+/// The step in integers: time in units of 2^q, with `first_bits` more bits for times in between.
 class IntegerMotion {
  public:
   static constexpr std::size_t first_bits = 64;
 
-  /// `shift`: added to all times, exactly; `eta`: a length that is to be an integer too.
+  /// `shift`: added to all times, exactly; `eta`: a length that must be an integer too.
   IntegerMotion(const WorldLines& lines, double shift, int dimension, double eta)
       : lines_(lines),
         shift_(shift),
@@ -35,11 +33,11 @@ class IntegerMotion {
 
   std::size_t dimension() const { return dimension_; }
   const WorldLines& lines() const { return lines_; }
-  /// A coordinate in the unit of all of them.
+  /// A length in the common unit of coordinates.
   Integer length(double x) const { return scale_.integer_place(x); }
   /// A time of a breakpoint.
   Integer time(double t) const { return scale_.integer_time(t + shift_); }
-  /// Any time of the lines, times 2^first_bits; rounded down, or up.
+  /// Any time of the lines, times 2^first_bits; rounded down or up.
   Integer fraction(double t, bool up) const {
     const Dyadic exact =
         ldexp(Dyadic::from_double(t) + Dyadic::from_double(shift_), static_cast<int>(first_bits) - scale_.time.low);
@@ -55,8 +53,8 @@ class IntegerMotion {
   motion::Scale scale_;
 };
 
-/// Some vertices from a time on, each on the segment that begins there or has it within; at the end of the step they
-/// rest. All positions are multiplied by the same number, which makes them integers.
+/// Some vertices from a time on, each on the segment that begins there or contains it; at the end of the step they
+/// rest. All positions are multiplied by one number that makes them integers.
 class Segments {
  public:
   Segments(const IntegerMotion& motion, std::span<const VertexId> vertices, const Integer& from, std::size_t e) {
@@ -81,7 +79,7 @@ class Segments {
   }
 
   const Integer& scale() const { return scale_; }
-  /// Of a vertex, in integer time.
+  /// The position of a vertex, in integer time.
   PolynomialPosition position(VertexId v) const {
     const Segment& s = of(v);
     const Integer factor = divide_exactly(scale_, s.t1 - s.t0);
@@ -91,7 +89,7 @@ class Segments {
     }
     return x;
   }
-  /// At the time at / 2^e, times 2^e.
+  /// The position at the time at / 2^e, times 2^e.
   std::array<Integer, 3> position_at(VertexId v, const Integer& at, std::size_t e) const {
     const Segment& s = of(v);
     const Integer factor = divide_exactly(scale_, s.t1 - s.t0);

@@ -10,7 +10,7 @@ namespace {
 
 /// The Bernstein coefficients of f on [l / 2^e, u / 2^e], times positive numbers. The polynomial 0 has no coefficients.
 std::vector<Integer> bernstein(const Polynomial& f, const Root& within) {
-  // The coefficients of f((l + u z) / (2^e (1 + z))) (1 + z)^n, which are those of Bernstein times binomials.
+  // The coefficients of f((l + u z) / (2^e (1 + z))) (1 + z)^n are the Bernstein coefficients times binomials.
   const Polynomial line({within.l, within.u}), one_more({Integer(1), Integer(1)});
   const auto n = static_cast<std::size_t>(f.degree()) + 1;
   Polynomial sum, power({Integer(1)});
@@ -25,7 +25,7 @@ std::vector<Integer> bernstein(const Polynomial& f, const Root& within) {
   return all;
 }
 
-/// The same in as few bits as are enough, so that there is room to go on.
+/// The same enclosure with the fewest bits, so that there is room for further halving.
 Root shortened(Root root) {
   std::size_t spare = root.e;
   for (const Integer* bound : {&root.l, &root.u}) {
@@ -42,7 +42,7 @@ void add_inside(const Polynomial& f, const Root& within, std::vector<Root>& root
   const auto& [l, u, e] = within;
   const auto coefficients = bernstein(f, within);
   const int changes = sign_changes(coefficients);
-  if (changes == 0) return;  // no root inside of the interval; with one change there is one
+  if (changes == 0) return;  // no root inside the interval; with one change there is one
   if (changes == 1 && !coefficients.front().is_zero() && !coefficients.back().is_zero()) return roots.push_back(within);
   if (e == most_root_bits) return;
   const Integer middle = l + u;

@@ -64,9 +64,9 @@ Sides sides_of(const FeatureContact& contact) {
   return {{p, q}, {q, q + second_size(contact.pair)}};
 }
 
-/// 1: f is positive at the root of g, and none of its Bernstein coefficients is negative on the enclosure that is left
-/// of it; `strictly`: all of them are positive. 0: f vanishes there; -1: as for 1, with -f; nothing if that is not
-/// seen.
+/// 1: f is positive at the root of g, and after refining the root, none of its Bernstein coefficients on the enclosure
+/// is negative; with `strictly`, all are positive. 0: f vanishes at the root. -1: as 1, for -f. Nothing if neither was
+/// shown.
 std::optional<int> sign_at_root(const Polynomial& f, const Polynomial& g, Root& root, bool strictly) {
   if (f.is_zero()) return 0;
   const Polynomial negative = Polynomial() - f;
@@ -85,7 +85,7 @@ std::optional<int> sign_at_root(const Polynomial& f, const Polynomial& g, Root& 
   }
 }
 
-/// Without factors that all weights of a side have; a single one is 1.
+/// Divides the weights of a side by their common integer factors; a single weight becomes 1.
 void reduce(Weights& side) {
   if (side.size() == 1) side[0].second = distance::constant(Integer(1));
   Integer content;
@@ -106,7 +106,7 @@ class Search {
     return std::move(payload_);
   }
 
-  /// At a time, the nearest points of some features of two cells that no short path joins.
+  /// A witness at one time: the nearest points of some features of two cells that no short path joins.
   std::optional<std::string> of_near(const TooNear& near, const MeshPaths& paths) {
     const Integer at = part_of_step(near.time);
     cells_ = {near.first_cell, near.second_cell};
@@ -134,7 +134,7 @@ class Search {
  private:
   static constexpr std::size_t first_bits = IntegerMotion::first_bits;
   static constexpr std::size_t most_cells = 64;
-  static constexpr std::size_t few_bits = 256;  ///< of weights that need not be exact
+  static constexpr std::size_t few_bits = 256;  ///< for weights that need not be exact
 
   /// Keeps the payload if it is a witness.
   bool take(Found found) {
@@ -162,8 +162,8 @@ class Search {
     return false;
   }
 
-  /// If the nearest points of the features' planes and lines are in the features, and near enough. Weights are cut to
-  /// so many bits.
+  /// A witness if the nearest points of the features' planes and lines are in the features, and near enough. Weights
+  /// are cut to `bits` bits.
   std::optional<Found> near_at(FeaturePair pair, const Sides& s, const Integer& at, std::size_t bits) const {
     const Segments segments(motion_, s.both(), at, first_bits);
     const auto place = [&](VertexId v) {
@@ -190,7 +190,7 @@ class Search {
 
   static Integer constant_of(const Polynomial& weight) { return weight.is_zero() ? Integer() : weight[0]; }
 
-  /// Leaves so many bits of the largest of some constant weights.
+  /// Shifts constant weights so that the largest has at most `bits` bits.
   static void cut(Weights& side, std::size_t bits) {
     std::size_t most = 0;
     for (const auto& [v, w] : side) most = std::max(most, constant_of(w).bit_length());
@@ -222,8 +222,8 @@ class Search {
     return cells;
   }
 
-  /// The weights of the nearest points of the features' planes and lines, which are what is inside them
-  /// (kernel/distance_parts.h). `at` gives the position of a vertex.
+  /// The weights of the nearest points of the features' planes and lines: the `inside` of kernel/distance_parts.h. `at`
+  /// gives the position of a vertex.
   template <class At>
   static std::pair<Weights, Weights> nearest(FeaturePair pair, const Sides& s, const At& at) {
     const Polynomial one = distance::constant(Integer(1));
@@ -246,13 +246,13 @@ class Search {
   }
 
   Integer begin() const { return motion_.time(step_.lines.first_time()); }
-  /// T0 and so much of the step, rounded down to a multiple of 2^-first_bits; times 2^first_bits.
+  /// T0 plus this share of the step, rounded down to a multiple of 2^-first_bits; times 2^first_bits.
   Integer part_of_step(double part) const {
     const Dyadic whole{(motion_.time(step_.lines.last_time()) - begin()) << first_bits, 0};
     return IntegerMotion::rounded_down(Dyadic::from_double(part) * whole) + (begin() << first_bits);
   }
 
-  /// Looks for a witness between two times, in one after another of the parts into which breakpoints cut that.
+  /// Looks for a witness between two times: in order, in each of the parts into which breakpoints cut the interval.
   bool during(const Sides& sides, Integer from, const Integer& end) {
     const auto vertices = sides.both();
     if (is_whole(from) && at_rest(sides, from)) return true;
@@ -267,7 +267,7 @@ class Search {
   /// Breakpoints are at whole numbers of integer time.
   static bool is_whole(const Integer& at) { return at.is_zero() || trailing_zeros(at) >= first_bits; }
 
-  /// Times of breakpoints between two times, and the second; at least that.
+  /// The breakpoints between two times, and the second time.
   std::vector<Integer> breakpoints_between(const std::vector<VertexId>& vertices, const Integer& from,
                                            const Integer& to) const {
     std::set<Integer> cuts = {to};
@@ -280,7 +280,7 @@ class Search {
     return {cuts.begin(), cuts.end()};
   }
 
-  /// At a time between two breakpoints at which some vertices of both features meet.
+  /// Looks for a witness at a time between two breakpoints at which some vertices of both features meet.
   bool at_roots(const Sides& sides, const Integer& from, const Integer& to) {
     const Segments segments(motion_, sides.both(), from, first_bits);
     return any_dependency(
@@ -298,8 +298,8 @@ class Search {
         });
   }
 
-  /// By what all of its weights have in common: near a time at which they vanish together, their sum would not be seen
-  /// to be positive.
+  /// Divides by the common factor of all weights: near a time at which they vanish together, their sum could not be
+  /// shown to be positive.
   static void divide(Dependency& d) {
     Polynomial common;
     for (const Polynomial& weight : d.weights) common = gcd(common, weight);
@@ -308,13 +308,13 @@ class Search {
     d.condition = quotient(std::move(d.condition), common);
   }
 
-  /// What meets at a breakpoint does so at rest.
+  /// Removes the root at a breakpoint: features that meet there are handled at rest.
   static Polynomial without_breakpoint(Polynomial g, const Integer& at) {
     if (!is_whole(at) || g.sign_at({at, first_bits}) != 0) return g;
     return quotient(std::move(g), Polynomial({-at >>= first_bits, Integer(1)}));
   }
 
-  /// With the weights at the root of a t - b, as constants: however near other roots are.
+  /// Tries the weights at the root of g = a t - b as constants; this works however near other roots are.
   bool at_fraction(const Dependency& d, const Polynomial& g, const Root& root) {
     const Integer b = -g[0];
     const Integer& a = g[1];
@@ -333,7 +333,8 @@ class Search {
     return at_root(constant, g, root);
   }
 
-  /// Whether the weights are of one sign there. Where one vanishes, g becomes what it has in common with it.
+  /// Looks for a witness at a root: the weights must have one sign there. If a weight vanishes, g is replaced by its
+  /// gcd with that weight.
   bool at_root(const Dependency& d, Polynomial g, Root root) {
     int sign = 0;
     Found found;
@@ -359,7 +360,7 @@ class Search {
     return take(std::move(found));
   }
 
-  /// Cells that have the features, at rest at some times of the step.
+  /// Tries the cells that have the features, at rest at some times of the step.
   void at_some_time(const std::vector<std::uint32_t>& of_p, const std::vector<std::uint32_t>& of_q) {
     bool found = false;
     for (int k = 0; k <= 16 && !found; ++k) {
@@ -370,7 +371,7 @@ class Search {
     }
   }
 
-  /// Whether two sides meet at a time: some of their vertices have just one way to do so.
+  /// Looks for a witness at one time: a subset of the vertices of two sides that meets with unique weights.
   bool at_rest(const Sides& sides, const Integer& at) {
     // Few bits of time make weights short.
     const std::size_t excess = at.is_zero() ? first_bits : std::min(first_bits, trailing_zeros(at));
@@ -387,7 +388,7 @@ class Search {
     });
   }
 
-  /// Weights with which p and q meet, if they are unique but for a factor, and none is negative.
+  /// Weights with which p and q meet, if they are unique up to a factor, and none is negative.
   std::optional<std::vector<Integer>> weights_at(const std::vector<VertexId>& p, const std::vector<VertexId>& q,
                                                  const Integer& at, std::size_t e) const {
     const std::size_t n = p.size() + q.size();
@@ -454,7 +455,7 @@ class Search {
 
   const WitnessStep& step_;
   IntegerMotion motion_;
-  std::array<std::uint32_t, 2> cells_{};  ///< which the witness names
+  std::array<std::uint32_t, 2> cells_{};  ///< the cells that the witness names
   std::optional<std::string> payload_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// It starts from the bytes, and shares no arithmetic with the search (witness.cpp): rational numbers instead of
-// integers, polynomials of its own.
+// Judges witnesses. It starts from the bytes and shares no arithmetic with the search (witness.cpp): it has rational
+// numbers instead of integers, and polynomials of its own.
 #include "proofs/prover/witness/witness.h"
 
 #include <gmpxx.h>
@@ -19,7 +19,7 @@ namespace noli {
 
 namespace {
 
-/// Why it is refused.
+/// Why a witness is rejected.
 struct Fault {
   const char* reason;
 };
@@ -94,7 +94,7 @@ mpq_class value_at(const Rational& f, const mpq_class& t) {
   return value;
 }
 
-/// Whether nothing is left of f when it is divided by g, which is not 0.
+/// Whether g, which is not 0, divides f.
 bool is_multiple(Rational f, const Rational& g) {
   while (f.size() >= g.size()) {
     const mpq_class factor = f.back() / g.back();
@@ -209,7 +209,7 @@ class Judge {
     }
   }
 
-  /// A breakpoint's, in integer time.
+  /// The time of a breakpoint, in integer time.
   mpq_class time(double t) const {
     mpq_class exact(t + step_.shift);
     if (time_unit_ >= 0) {

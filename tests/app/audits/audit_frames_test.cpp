@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit ccd --frames`: whole pipelines.
+// Tests `noli audit ccd --frames`: whole pipelines.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A triangle falls through another one: its three vertices meet the lower face, and nothing else meets.
+/// A triangle falls through another one: only its three vertices meet the lower face.
 class AuditFrames : public testing::Test {
  protected:
   std::vector<std::string> command(const std::string& library, const std::vector<std::string>& more = {}) const {
@@ -49,7 +49,7 @@ TEST_F(AuditFrames, FindsNothingInWhatIsRight) {
   EXPECT_EQ(without_timing(document), without_timing(json_of(command(plugin("noli"), {"--tolerance", "0"}), 0)));
 }
 
-/// What is right is not in the memory of the library's process, wherever it looks.
+/// The right answers are nowhere in the memory of the library's process.
 TEST_F(AuditFrames, IsNotMisledByALibraryThatWritesBehindThePoints) {
   const Json audit = json_of(command(faulty("marks_what_lies_behind")), 1)["audits"][0];
   EXPECT_EQ(audit["not_found"], 3);
@@ -74,7 +74,7 @@ TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
   options.environment = {{"NOLI_TEST_FILE", mine}};
   const std::string inherited = folder.path("inherited");
   const int file = ::open(inherited.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-  ASSERT_EQ(::dup2(file, 9), 9);  // what `noli` is started with
+  ASSERT_EQ(::dup2(file, 9), 9);  // inherited by `noli`
   const Process process = run_noli(command(faulty("attacks_others"), {"--sandbox", "--json", "-"}), options);
   ::close(file);
   ::close(9);
@@ -88,12 +88,12 @@ TEST_F(AuditFrames, ASandboxKeepsALibraryFromOthers) {
   EXPECT_EQ(read_text(mine), "mine");
   EXPECT_EQ(read_text(inherited), "");
   const Process ended = run_noli(command(faulty("ends_as_without_sandbox"), {"--sandbox", "--json", "-"}));
-  EXPECT_EQ(ended.exit_code, 1) << ended.err;  // the code of the library is not trusted
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;  // the library's exit code is not trusted
   EXPECT_NE(Json::parse(ended.out)["audits"][0]["ending"], "finished");
   options.environment = {{"NOLI_TEST_FILE", folder.path("new")}};
   EXPECT_EQ(run_noli(command(faulty("attacks_others"), {"--sandbox"}), options).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(folder.path("new")));
-  for (const char* library : {"noli", "textbook"}) {  // libraries do their work as before
+  for (const char* library : {"noli", "textbook"}) {  // well-behaved libraries work as without it
     EXPECT_EQ(without_timing(json_of(command(plugin(library), {"--sandbox"}), 0)),
               without_timing(json_of(command(plugin(library)), 0)));
   }
@@ -127,7 +127,7 @@ TEST_F(AuditFrames, NamesVerticesAsTheFramesDo) {
   EXPECT_FALSE(listed("vertex 7 meets face 1-2-3")) << process.out;
 }
 
-/// The edge from a vertex to itself meets others, and is none that a library is told.
+/// The edge from a vertex to itself meets other features, but is not passed to libraries.
 TEST_F(AuditFrames, KnowsFacesThatListAVertexTwice) {
   const auto frame = [&](const char* name, double height) {
     return folder.write(name, ply_text({{0, 0, height}, {0, 0, height}, {4, 0, 0}, {0, 4, 0}}, {{3, 1, 2}, {1, 0, 0}}));

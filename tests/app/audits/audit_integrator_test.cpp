@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit integrator`.
+// Tests `noli audit integrator`.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 class AuditIntegrator : public testing::Test {
  protected:
-  /// A chain in the plane whose middle is stiff.
+  /// A chain in the plane with a stiff middle.
   std::string chain(const Json& more = Json::object()) const {
     Json scene = Json::parse(R"({
       "noli_scene": 1, "title": "stiff in the middle", "dimension": 2, "duration": 0.3, "window": 0.1, "bodies": [

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit precision`: what it says, and how it ends. What is measured is tested in tests/audit/precision_test.cpp.
+// Tests the output and exit codes of `noli audit precision`. tests/audit/precision_test.cpp tests the measurements.
 #include <gtest/gtest.h>
 
 #include <cmath>

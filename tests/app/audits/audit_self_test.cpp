@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit self`: of this `noli`, and of others that have a fault which has to be found.
+// Tests `noli audit self` on this `noli`, and on faulty programs whose faults must be found.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 class AuditSelf : public testing::Test {
  protected:
-  /// Without data, without scenes, and with little time for fuzzers, unless `more` says so.
+  /// The command without data, without scenes, and with little time for fuzzers, unless `more` overrides it.
   std::vector<std::string> command(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words = {"audit", "self", "--out", folder.path("findings")};
     const auto given = [&](const std::string& option) {
@@ -40,7 +40,7 @@ class AuditSelf : public testing::Test {
     return {{"state", "absent"}};
   }
 
-  /// A program with a fault: the part fails, and the exit code says so.
+  /// Expects that the part fails for a faulty program, and that the exit code says so.
   void found(const std::string& fault, const std::string& group, const std::string& name) const {
     const Json json = json_of(command({"--program", fake_noli(folder, fault), "--only", group}), 1);
     EXPECT_EQ(json["verdict"], "finding") << fault;
@@ -134,7 +134,7 @@ TEST_F(AuditSelf, ACtrlCEndsIt) {
 }
 
 TEST_F(AuditSelf, TheWorkedExampleIsTrue) {
-  // How many parts there are depends on whether there is Coq.
+  // The number of parts depends on whether Coq is installed.
   const auto commands = worked_example("docs/audit/self.md");
   ASSERT_EQ(commands.size(), 2u);
   const std::string without_data = std::string("env -u NOLI_DATA ") + NOLI_COMMAND;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit stability`: of this `noli`, and of others that have a fault which has to be found.
+// Tests `noli audit stability` on this `noli`, and on faulty programs whose faults must be found.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -25,7 +25,7 @@ class AuditStability : public testing::Test {
     return words;
   }
 
-  /// The first point of a row, asked of a program with a fault: a finding whose words have these in them.
+  /// Expects a finding that contains `words` at the first point of a row for a faulty program.
   void found(const std::string& row, const std::string& fault, const std::string& words) const {
     const std::string program = fake_noli(folder, fault);
     const Json json = json_of(command(row, {"--points", "1", "--program", program}), 1);
@@ -69,7 +69,7 @@ TEST_F(AuditStability, WhatIsRefusedFailsClosed) {
   EXPECT_EQ(row["exit_code"], 3);
 }
 
-/// Layers so deep that their steps cannot be counted any more end a run, however many are allowed.
+/// A run ends at layers so deep that their steps cannot be counted, no matter how many layers are allowed.
 TEST_F(AuditStability, LayersWithoutEndDoNotHang) {
   const Json row = json_of(command("thickness-all-layers-contact"), 0)["rows"][0];
   EXPECT_EQ(row["holds_up_to"], 1e-6);
@@ -111,7 +111,7 @@ TEST_F(AuditStability, FindsARunThatIsNotVerifiedAgain) {
         "`noli verify` says, with exit 0");
 }
 
-/// Changes the last cell of each line of a series.
+/// A script that changes the last cell of each line of a series.
 std::string changed_series(const std::string& figure, const std::string& last) {
   return R"(case "$ALL" in *' --figure )" + figure + R"( '*) "$NOLI" "$@"; for f in "$@"; do case "$f" in *.csv)
     awk -F, -v OFS=, 'NR > 1 {$NF = )" +
@@ -171,7 +171,7 @@ TEST_F(AuditStability, TheWorkedExampleIsTrue) {
   expect_worked_example(commands, {{"build/release/app/noli", NOLI_COMMAND}});
 }
 
-/// The page has the table as the command prints it.
+/// The table in the documentation is the one that the command prints.
 TEST_F(AuditStability, TheTableOfThePageIsTrueSlow) {
   const Process process = run_noli({"audit", "stability", "--out", folder.path("findings")});
   EXPECT_EQ(process.exit_code, 0) << process.out;

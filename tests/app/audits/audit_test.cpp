@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli audit ccd`: libraries of all sorts, most of them with a fault that has to be found.
+// Tests `noli audit ccd` on many libraries, most of them with a fault that must be found.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -23,7 +23,7 @@ std::string labelled_row(int x, int y, int z, const std::string& label) {
   return cell(x) + cell(y) + cell(z) + label + "\n";
 }
 
-/// A vertex that moves from height 1 to `end` over a face that does not move.
+/// A vertex that moves from height 1 to `end` over a resting face.
 std::string vertex_face(int x, int end, const std::string& label) {
   const std::string face =
       labelled_row(-4, -4, 0, label) + labelled_row(4, -4, 0, label) + labelled_row(0, 8, 0, label);
@@ -32,8 +32,8 @@ std::string vertex_face(int x, int end, const std::string& label) {
 
 class AuditCcd : public testing::Test {
  protected:
-  /// Two contacts at half time and two that are none; faulty libraries do their worst where x is above 0, in the second
-  /// query and in the fourth.
+  /// Two contacts at t = 1/2, and two queries without contact. Faulty libraries misbehave where x is above 0, in the
+  /// second and fourth query.
   std::string queries() const {
     return folder.write("a-vertex-face.csv", vertex_face(-1, -1, "1") + vertex_face(1, -1, "1") +
                                                  vertex_face(-1, 1, "0") + vertex_face(1, 1, "0"));
@@ -113,7 +113,7 @@ TEST_F(AuditCcd, IsNotMisledByALibraryThatWritesBehindThePoints) {
   EXPECT_EQ(audit["false_negatives"], 2);
 }
 
-/// Its own answers are lost, and are findings; those of others stay.
+/// The library's own answers are lost and count as findings; those of other libraries are kept.
 TEST_F(AuditCcd, SurvivesALibraryThatWritesAllOver) {
   const std::vector<std::string> more = {"--library", plugin("noli"), "--query-limit", "100ms", "--max-hangs", "1000"};
   const Json audits = json(faulty("writes_all_over"), 1, more)["audits"];
@@ -123,7 +123,7 @@ TEST_F(AuditCcd, SurvivesALibraryThatWritesAllOver) {
   EXPECT_EQ(audits[1]["answered"], 4);
 }
 
-/// What it has overwritten says that it was never loaded.
+/// The library overwrites the record that it was loaded.
 TEST_F(AuditCcd, TellsACrashFromALibraryThatCannotBeLoaded) {
   const Json audit = json(faulty("writes_zeros_and_crashes"), 1)["audits"][0];
   EXPECT_GE(audit["crashes"], 2);
@@ -201,7 +201,7 @@ TEST_F(AuditCcd, EndsWhatALibraryHasStarted) {
   ::unsetenv("NOLI_TEST_PID_FILE");
   std::string pid;
   ASSERT_TRUE(std::ifstream(file) >> pid);
-  // Whoever is told to end needs a moment; a zombie is one that nobody has waited for yet.
+  // A killed process takes a moment to end; a zombie has ended but was not waited for yet.
   const auto ended = [&] {
     std::string number, name, state;
     return !(std::ifstream("/proc/" + pid + "/stat") >> number >> name >> state) || state == "Z";
@@ -351,19 +351,19 @@ TEST_F(AuditCcd, TheWorkedExampleIsTrue) {
                                    {"build/audit.svg", folder.path("audit.svg")}});
 }
 
-// --- libraries that others have written ------------------------------------------------------------------------------
+// --- third-party libraries -------------------------------------------------------------------------------------------
 
-/// What those that this Noli was built with need to be tested.
+/// Tests the third-party libraries that this Noli was built with.
 class AuditCcdOfOthers : public AuditCcd {
  protected:
   static bool is_built(const std::string& name) { return std::filesystem::exists(plugin(name)); }
 
-  /// As it says itself: "FCL 0.7.0, as installed".
+  /// Compares with the library's own description, such as "FCL 0.7.0, as installed".
   static bool is_version(const Json& audit, const std::string& begin) {
     return audit["description"].get<std::string>().starts_with(begin);
   }
 
-  /// Two contacts and one that is none, all coordinates divided by a power of two.
+  /// Two contacts and one query without contact, with all coordinates divided by a power of two.
   std::string divided_by(const std::string& denominator) const {
     std::string text = vertex_face(-1, -1, "1") + vertex_face(1, -1, "1") + vertex_face(-1, 1, "0");
     for (std::size_t at = 0; (at = text.find(",1,", at)) != std::string::npos; at += denominator.size() + 2) {
@@ -383,7 +383,7 @@ TEST_F(AuditCcdOfOthers, Fcl) {
   EXPECT_EQ(audit["times"], 2);
 }
 
-/// What it answers depends on the unit of length (docs/audit/ccd.md).
+/// FCL's answers depend on the unit of length (docs/audit/ccd.md).
 TEST_F(AuditCcdOfOthers, FclTakesSmallVolumesForNone) {
   if (!is_built("fcl")) GTEST_SKIP() << "skipped: the plug-in over FCL, which is not built (NOLI_WITH_FCL)";
   const Json audit = json_of(command(plugin("fcl"), divided_by("4096")), 1)["audits"][0];
@@ -406,7 +406,7 @@ struct Expected {
   std::array<int, 6> wrong;  ///< false positives and negatives of each file
 };
 
-/// What the methods answer to real queries is what their authors and others have measured (docs/audit/ccd.md).
+/// The errors of the methods on real queries are those measured by their authors and others (docs/audit/ccd.md).
 TEST_F(AuditCcdOfOthers, MethodsErrAsMeasuredSlow) {
   std::vector<std::string> words = {"audit", "ccd"};
   for (const char* const name :
@@ -420,7 +420,7 @@ TEST_F(AuditCcdOfOthers, MethodsErrAsMeasuredSlow) {
                                {"additive", {156, 0, 65, 0, 2, 0}},
                                {"root_parity", {0, 1, 0, 0, 0, 63}},
                                {"noli", {0, 0, 0, 0, 0, 0}}};
-  if (is_built("fcl")) all.push_back({"fcl", {0, 107, 0, 27, 2, 5}});  // of 0.7.0
+  if (is_built("fcl")) all.push_back({"fcl", {0, 107, 0, 27, 2, 5}});  // FCL 0.7.0
   words.insert(words.end(), {"--query-limit", "60s"});
   for (const Expected& one : all) words.insert(words.end(), {"--library", plugin(one.method)});
   const Json document = json_of(words, 1);

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// One row: a point with integer coordinates, and a label when there is one.
+/// One row: a point with integer coordinates, and a label if given.
 std::string row(int x, int y, int z, const std::string& label) {
   const auto cell = [](int value) { return std::to_string(value) + ",1"; };
   return cell(x) + "," + cell(y) + "," + cell(z) + (label.empty() ? "" : "," + label) + "\n";
@@ -110,7 +110,7 @@ TEST_F(Ccd, AgreesWithTheLabelsOfRealQueries) {
 TEST_F(Ccd, NoticesAFlippedLabelAmongRealQueries) {
   const auto original = real_data("queries/cloth-funnel-vertex-face.csv");
   if (!original) GTEST_SKIP() << "no real data";
-  // The labels of the first query: the last character of each of its eight lines.
+  // The labels of the first query are the last characters of its eight lines.
   std::string text = read_text(*original);
   std::size_t end = 0;
   for (int line = 0; line < 8; ++line) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli fuzz trajectories --library`: pipelines in which nothing is found, and those in which something is.
+// Tests `noli fuzz trajectories --library` on pipelines with and without faults.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ class FuzzLibraryMotions : public testing::Test {
     return json_of(command(library, more), exit_code);
   }
 
-  /// How the command of a finding ends, as it is and asked of another library.
+  /// The exit code of the command of a finding, as it is or with another library.
   static int again(const std::string& command) {
     return shell(replaced(command, "noli fuzz", std::string(NOLI_COMMAND) + " fuzz")).second;
   }
@@ -161,7 +161,7 @@ TEST_F(FuzzLibraryMotions, TellsFalsePositivesAndEarlyTimesOnlyOfWhatClaimsToBeE
 
 TEST_F(FuzzLibraryMotions, GivesTheSameForAnyNumberOfThreadsSlow) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
-    std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names
+    std::filesystem::remove_all(folder.path("out" + seed));  // existing findings would change the names
     return without_timing(
         json_of({"fuzz", "trajectories", "--library", plugin("textbook"), "--count", "20", "--seed", seed, "--threads",
                  threads, "--max-findings", "1", "--out", folder.path("out" + seed)},
@@ -213,7 +213,7 @@ TEST_F(FuzzLibraryMotions, DoesNotSayWhereWhenNobodyKnows) {
 }
 
 TEST_F(FuzzLibraryMotions, LeavesNoPartOfAFindingWhereThereIsNoRoom) {
-  std::string out = folder.path("out");  // a path that has room for a folder of findings, and for no file in it
+  std::string out = folder.path("out");  // long enough that a folder of findings fits, but no file in it
   while (out.size() < 3900) out += "/" + std::string(100, 'x');
   out += "/" + std::string(4045 - out.size(), 'x');
   std::filesystem::create_directories(out);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli fuzz queries --library`: an exact method in which nothing is found, its mutants (ccd_libraries/mutants), in
-// each of which something is, and libraries that misbehave otherwise.
+// Tests `noli fuzz queries --library` on an exact method without faults, on its mutants (ccd_libraries/mutants), each
+// of which must be found, and on libraries that misbehave in other ways.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Words mutants() {
   return result;
 }
 
-/// A vertex that falls through a face, and one that is beside it.
+/// A vertex that falls through a face, and one that falls beside it.
 const char* const two_queries =
     "0,1,0,1,1,1\n-4,1,-4,1,0,1\n4,1,-4,1,0,1\n0,1,8,1,0,1\n0,1,0,1,-1,1\n-4,1,-4,1,0,1\n4,1,-4,1,0,1\n0,1,8,1,0,1\n"
     "9,1,9,1,1,1\n-4,1,-4,1,0,1\n4,1,-4,1,0,1\n0,1,8,1,0,1\n9,1,9,1,-1,1\n-4,1,-4,1,0,1\n4,1,-4,1,0,1\n0,1,8,1,0,1\n";
@@ -43,11 +43,11 @@ class FuzzLibrary : public testing::Test {
   }
   Process run(const std::string& library, const Words& more) const { return run_noli(command(library, more)); }
 
-  /// How the command of a finding ends.
+  /// The exit code of the command of a finding.
   static int again(const std::string& command) {
     return shell(replaced(command, "noli fuzz", std::string(NOLI_COMMAND) + " fuzz")).second;
   }
-  /// The same, asked of the method without a fault.
+  /// The same with the method without a fault.
   static int again_without(const std::string& name, const std::string& command) {
     return again(replaced(command, mutant(name), mutant("none")));
   }
@@ -161,7 +161,7 @@ TEST_F(FuzzLibrary, CallsALibraryInItsOwnProcess) {
 
 TEST_F(FuzzLibrary, GivesTheSameForAnyNumberOfThreads) {
   const auto bytes = [&](const std::string& seed, const std::string& threads) {
-    std::filesystem::remove_all(folder.path("out" + seed));  // findings that are there would be given other names
+    std::filesystem::remove_all(folder.path("out" + seed));  // existing findings would change the names
     return without_timing(
         json_of({"fuzz", "queries", "--library", mutant("double_roots_dropped"), "--count", "5000", "--seed", seed,
                  "--threads", threads, "--max-findings", "2", "--out", folder.path("out" + seed)},
@@ -294,7 +294,8 @@ TEST_F(FuzzLibrary, TheWorkedExampleIsTrue) {
                                    {"build/findings", folder.path("findings")}});
 }
 
-/// Its wrong answers are false positives and early times, which are faults of what claims to be exact only.
+/// Its wrong answers are false positives and early times, which count as faults only for libraries that claim to be
+/// exact.
 const char* const only_wrong_when_exact = "edges_prolonged";
 
 const Json& simplest(const Json& reports) {

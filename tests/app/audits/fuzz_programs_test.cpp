@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli fuzz trajectories`, `noli fuzz proofs`, `noli fuzz scenes`: what a user sees of them. Whether they find what is
-// wrong is tested with planted faults in tests/audit.
+// Tests the user's view of `noli fuzz trajectories`, `noli fuzz proofs` and `noli fuzz scenes`. tests/audit tests with
+// planted faults that they find what is wrong.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -75,7 +75,7 @@ TEST(FuzzPrograms, RefuseWhatCannotBe) {
   }
 }
 
-/// No permission says it: root has them all, and yet there is no file to be made in /proc.
+/// Permissions do not tell: root has them all, but cannot create files in /proc either.
 TEST(FuzzPrograms, KnowBeforeTheyBeginWhereNoFileCanBeMade) {
   for (const char* const what : {"queries", "trajectories", "proofs", "scenes"}) {
     for (const char* const option : {"--corpus", "--out"}) {
@@ -151,7 +151,7 @@ TEST(FuzzProofsCommand, IsUndecidedWhenItIsInterruptedBeforeItBegins) {
   }
 }
 
-/// A noli whose verified checker is this program.
+/// A copy of noli whose verified checker is `program`.
 ProcessOptions with_verified_checker(const Folder& folder, const char* program) {
   namespace fs = std::filesystem;
   for (const char* const name : {"noli", "noli_check", "noli_check_host"}) {
@@ -165,8 +165,8 @@ ProcessOptions with_verified_checker(const Folder& folder, const char* program) 
 
 const char* const takes_nothing = "#!/bin/sh\nexit 3\n";
 
-/// A fuzzer that goes on for long and has certain findings at its beginning, and is interrupted then: they are said,
-/// and saved with the command that shows them again.
+/// Interrupts a fuzzer that runs long and has certain findings at its beginning. They must be reported, and saved with
+/// the command that replays them.
 class FindingsKept : public testing::Test {
  protected:
   void expect_kept(const Arguments& words, const std::string& saved) {
@@ -208,7 +208,7 @@ TEST_F(FindingsKept, OfTrajectories) {
   expect_kept({"fuzz", "trajectories", "--corpus", corpus}, "frame-0.ply");
 }
 
-/// The scene is said to be wrong in a place where it is not.
+/// The corpus claims an error at a place where the scene is right.
 TEST_F(FindingsKept, OfScenes) {
   std::filesystem::create_directories(corpus + "/ring");
   folder.write("corpus/ring/scene.json", ring_scene);
@@ -300,7 +300,7 @@ TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
   const std::string proof = folder.path("ab.noli");
   std::string out = folder.path("out");
   ASSERT_EQ(run_noli({"verify", a, b, "--proof", proof}).exit_code, 0);
-  // A path that has room for a folder of findings, and for no file in it.
+  // Long enough that a folder of findings fits, but no file in it.
   while (out.size() < 3900) out += "/" + std::string(100, 'x');
   out += "/" + std::string(4061 - out.size(), 'x');
   std::filesystem::create_directories(out);
@@ -383,8 +383,8 @@ TEST(FuzzScenesCommand, DoesNotOverwriteWhatItMinimises) {
   EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--family", "landings"}).exit_code, 3);
 }
 
-/// Each once ended in a hang, in exit 4, or otherwise than when it was resumed. Lengths that are too large or too small
-/// for contact are refused now.
+/// Each scene once ended in a hang, with exit code 4, or differently when resumed. Lengths too large or too small for
+/// contact are refused now.
 TEST(FuzzScenesCommand, FindsNothingAnyMoreInScenesThatItFound) {
   const std::filesystem::path found = std::filesystem::path(NOLI_SOURCE_DIR) / "tests/audit/scenes/found";
   std::size_t count = 0;

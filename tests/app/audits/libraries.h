@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The libraries that `noli audit ccd` and `noli fuzz --library` are tested with, and what both fuzzers that ask one
-// have to do alike.
+// Names the libraries that test `noli audit ccd` and `noli fuzz --library`, and defines the expectations that both
+// fuzzers of libraries share.
 #pragma once
 
 #include <chrono>
@@ -20,14 +20,14 @@ inline Words operator+(Words a, const Words& b) {
   return a;
 }
 
-/// Of tests/app/ccd_libraries/misbehaving.c.
+/// A library built from tests/app/ccd_libraries/misbehaving.c.
 inline std::string faulty(const std::string& name) { return std::string(NOLI_TEST_LIBRARIES) + "/" + name + ".so"; }
-/// Of audit/ccd/plugins.
+/// A plug-in of audit/ccd/plugins.
 inline std::string plugin(const std::string& name) { return std::string(NOLI_CCD_PLUGINS) + "/" + name + ".so"; }
-/// Of tests/app/ccd_libraries/mutants.
+/// A mutant of tests/app/ccd_libraries/mutants.
 inline std::string mutant(const std::string& name) { return std::string(NOLI_MUTANTS) + "/" + name + ".so"; }
 
-/// A command that would go on for long is interrupted after that time, with findings.
+/// Interrupts a long-running command after the given time and expects that its findings are saved.
 inline void expect_findings_kept(const Words& words, std::chrono::milliseconds after) {
   ProcessOptions options;
   options.signal = SIGINT;

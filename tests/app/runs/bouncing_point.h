@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The smallest scene with contact.
+// Defines the smallest scene with contact.
 #pragma once
 
 #include <nlohmann/json.hpp>

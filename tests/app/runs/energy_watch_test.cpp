@@ -8,7 +8,7 @@
 namespace noli {
 namespace {
 
-/// Of a window that ends with K = kinetic, and with so much energy that finite steps made.
+/// A window that ends with this kinetic energy, and with `integration` as the energy made by finite steps.
 SeriesRow row(double time, double kinetic, double integration) {
   SeriesRow result;
   result.time = time;

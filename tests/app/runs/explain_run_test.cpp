@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli explain RUN`: what happened, from the files of a run alone.
+// Tests `noli explain RUN`: what happened, from the files of a run alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ double sum(const Json& numbers) {
   return total;
 }
 
-/// Its height is a broken line, so it is least at a breakpoint.
+/// The least height of a point. Its height is piecewise linear, so the minimum is at a breakpoint.
 double least_height(const std::string& run, VertexId point) {
   RunReader reader(run);
   double least = std::numeric_limits<double>::infinity();
@@ -49,12 +49,12 @@ TEST_F(Simulate, ExplainTellsHowNearThingsCameExactly) {
   EXPECT_EQ(json["layer_cap"]["worst"][0]["layer"], layer);
   EXPECT_GT(json["events"]["contact"], 0);
   EXPECT_EQ(json["events"]["hinge"], 0);
-  EXPECT_EQ(json["events_a_second"]["contact"], json["events"]["contact"]);  // it is one second
+  EXPECT_EQ(json["events_a_second"]["contact"], json["events"]["contact"]);  // the run takes one second
 }
 
 TEST_F(Simulate, ExplainAddsUpPhasesOfAllParts) {
   Json cloths = two_cloths();
-  cloths["duration"] = 2;  // long enough to be seen in each phase that matters
+  cloths["duration"] = 2;  // long enough to show each phase
   const std::string file = scene(cloths);
   const Json first = json_of({"simulate", file, "-o", run_path("run"), "--until", "0.1"}, 0);
   EXPECT_GE(sum(first["timing"]["phases"]) + 1e-6, first["timing"]["simulating_seconds"].get<double>());
@@ -88,7 +88,7 @@ TEST_F(Simulate, ExplainDoesNotKnowWhatAPartOfTheLogDoesNotTell) {
   std::string lines;
   read_log_lines(run_path("run"), [&](Json entry) {
     if (entry["event"] == "end") {
-      entry["timing"]["certificates"].erase("events");  // as earlier versions wrote it
+      entry["timing"]["certificates"].erase("events");  // as in earlier versions
       entry["timing"]["certificates"]["penned"] = 7;
     }
     lines += log_line(entry);
@@ -147,7 +147,7 @@ TEST_F(Simulate, ExplainDoesWithoutALog) {
   const Json damaged = json_of({"explain", run_path("run")}, 0);
   EXPECT_EQ(damaged["timing"]["bad_lines"], 2);
   EXPECT_EQ(damaged["timing"]["parts"], 2);
-  EXPECT_EQ(damaged["timing"]["end"], "");  // of the last part it is not known
+  EXPECT_EQ(damaged["timing"]["end"], "");  // unknown for the last part
   EXPECT_EQ(damaged["deepest"]["names"], "vertex 2 and edge 0-1");
   fs::remove(run_path("run/log.jsonl"));
   const Json json = json_of({"explain", run_path("run")}, 0);

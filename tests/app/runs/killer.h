@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs that are killed at random moments until they are done.
+// Kills runs at random moments until they are done.
 #pragma once
 
 #include <sys/wait.h>
@@ -18,7 +18,7 @@
 
 namespace noli::app_tests {
 
-/// A `noli` at work, without its standard output.
+/// A running `noli` without standard output.
 class Victim {
  public:
   explicit Victim(std::vector<std::string> arguments) {
@@ -36,7 +36,7 @@ class Victim {
     std::this_thread::sleep_for(pause);
     ::kill(child_, SIGKILL);
   }
-  /// Its exit code; nothing if it was killed.
+  /// The exit code; nullopt if it was killed.
   std::optional<int> wait() const {
     int status = 0;
     ::waitpid(child_, &status, 0);
@@ -47,15 +47,15 @@ class Victim {
   pid_t child_;
 };
 
-/// Starts `noli` with these arguments and kills it after a pause, unless it has ended. Whether it ended well.
+/// Starts `noli` with these arguments and kills it after a pause. True if it exited with 0 before.
 inline bool run_and_kill(const std::vector<std::string>& arguments, std::chrono::microseconds pause) {
   const Victim victim(arguments);
   victim.kill_after(pause);
   return victim.wait() == 0;
 }
 
-/// Starts `simulate` with these arguments and kills it after pause(), again and again, `most` times; then lets it end.
-/// Returns how often it killed it, or -1 if it did not end well.
+/// Starts `simulate` with these arguments and kills it after pause(), up to `most` times; then lets it end. Returns the
+/// number of kills, or -1 if the exit code was not 0.
 inline int kill_until_done(const std::vector<std::string>& arguments, const std::string& run, int most,
                            const std::function<std::chrono::microseconds()>& pause) {
   for (int kills = 0;; ++kills) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a knot is, as whole numbers that no motion without a contact changes: read from the curves of a run.
+// Computes knot invariants from the curves of a run: integers that no motion without contact changes.
 //
 // Notation
-//   crossing   of two segments of curves in a projection, which one direction in space makes; its sign is that of
-//              (over x under)_z, both along their curves
+//   crossing   of two segments of curves in a projection along one direction; its sign is that of (over x under)_z,
+//              both along their curves
 //
-// What this does not do: directions in which a vertex lies exactly on a segment. The one that is used is no axis.
+// No vertex may project exactly onto a segment. The direction used is not an axis, to avoid this.
 #pragma once
 
 #include <algorithm>
@@ -22,18 +22,18 @@ namespace noli::app_tests {
 using Curve = std::vector<Position>;
 
 struct Crossing {
-  double along_a = 0, along_b = 0;  ///< segment and part of it, on each curve
+  double along_a = 0, along_b = 0;  ///< segment plus fraction of it, on each curve
   bool a_over = false;
   int sign = 0;
 };
 
-/// In a direction that no scene is aligned with.
+/// The point, rotated to a direction of view that no scene is aligned with.
 inline Position seen_aslant(const Position& p) {
   return {0.8 * p[0] - 0.6 * p[1] + 0.05 * p[2], 0.48 * p[0] + 0.64 * p[1] - 0.6 * p[2],
           0.36 * p[0] + 0.48 * p[1] + 0.8 * p[2]};
 }
 
-/// Of segments i of a and j of b, if they cross. The last segment goes back to the beginning.
+/// Adds the crossing of segments i of a and j of b, if they cross. The last segment returns to the beginning.
 inline void add_crossing(const Curve& a, std::size_t i, const Curve& b, std::size_t j, std::vector<Crossing>& to) {
   const Position p = a[i], q = a[(i + 1) % a.size()], r = b[j], s = b[(j + 1) % b.size()];
   const double ax = q[0] - p[0], ay = q[1] - p[1], bx = s[0] - r[0], by = s[1] - r[1];
@@ -52,7 +52,7 @@ inline Curve aslant(std::span<const Position> curve) {
   return result;
 }
 
-/// How often two closed curves wind about each other.
+/// How often two closed curves wind around each other.
 inline int linking_number(std::span<const Position> first, std::span<const Position> second) {
   const Curve a = aslant(first), b = aslant(second);
   std::vector<Crossing> crossings;
@@ -64,10 +64,10 @@ inline int linking_number(std::span<const Position> first, std::span<const Posit
   return sum / 2;
 }
 
-/// Vassiliev's invariant of degree 2 of an open curve whose ends are outside of all else: 0 for what can be drawn
-/// straight, 1 for a trefoil, -1 for a figure of eight. By the formula of Polyak and Viro ("Gauss diagram formulas for
-/// Vassiliev invariants", 1994): the sum of sign(i) sign(j) over crossings i, j that are met in the order i, j, i, j,
-/// first i below, then j above.
+/// Vassiliev's invariant of degree 2 of an open curve whose ends are outside of everything else: 0 for a curve that can
+/// be pulled straight, 1 for a trefoil, -1 for a figure of eight. By the formula of Polyak and Viro ("Gauss diagram
+/// formulas for Vassiliev invariants", 1994), it is the sum of sign(i) sign(j) over crossings i, j passed in the order
+/// i, j, i, j, first i below, then j above.
 inline int degree_two_invariant(std::span<const Position> curve) {
   const Curve a = aslant(curve);
   std::vector<Crossing> crossings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A bit of a run is flipped: whoever reads it then gives the answer of the run as it was, or none.
+// Flips bits of runs: every command that reads the run gives the answer of the intact run, or none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Damage : public Simulate {
   std::string answer(const std::string& name, const Process& process) const {
     if (name == "report") return bytes_of(folder.path("page.html"));
     Json json = Json::parse(process.out);
-    json.erase("timing");  // where there is any
+    json.erase("timing");  // if there is any
     return json.dump();
   }
 
@@ -65,7 +65,7 @@ class Damage : public Simulate {
     return list;
   }
 
-  /// The true answer, or an error of the input. Whether it was an answer.
+  /// Expects the true answer or an input error; returns true for an answer.
   bool expect_truth(const std::string& name, const std::string& damaged, std::size_t bit) {
     if (name == "--resume") return expect_resumption(damaged, bit);
     flip(fs::path(run_) / damaged, bit);
@@ -86,7 +86,7 @@ class Damage : public Simulate {
     EXPECT_TRUE(process.exit_code == 0 || process.exit_code == 3) << what("--resume", damaged, bit) << process.err;
     if (process.exit_code != 0) return false;
     for (const std::string file : run_files) {
-      if (file == "log.jsonl") continue;  // it has a line more
+      if (file == "log.jsonl") continue;  // has one more line
       EXPECT_TRUE(bytes_of(fs::path(copy) / file) == bytes_of(fs::path(run_) / file))
           << what("--resume", damaged, bit) << ": " << file;
     }
@@ -105,7 +105,7 @@ class Damage : public Simulate {
   std::map<std::string, std::string> truth_;
 };
 
-/// A single bit, so that no checksum can miss it; of each file the first and last bytes too.
+/// Flips single bits, which no checksum can miss, also in the first and last byte of each file.
 TEST_F(Damage, NobodyAnswersWithLessThanTheTruth) {
   constexpr std::size_t positions = 36;
   const std::vector<std::string> commands = names();
@@ -116,8 +116,8 @@ TEST_F(Damage, NobodyAnswersWithLessThanTheTruth) {
       answers += expect_truth(commands[number % commands.size()], file, 8 * byte + number % 8) ? 1 : 0;
     }
   }
-  EXPECT_GT(answers, 0);       // of files that a command does not read
-  EXPECT_LT(answers, number);  // of the others
+  EXPECT_GT(answers, 0);       // files that the command does not read
+  EXPECT_LT(answers, number);  // files that it reads
 }
 
 TEST_F(Damage, TheLastCommitIsMissed) {
@@ -128,7 +128,7 @@ TEST_F(Damage, TheLastCommitIsMissed) {
   for (const auto& [name, words] : commands_) {
     const Process process = run_noli(words);
     EXPECT_EQ(process.exit_code, 3) << name << process.out;
-    if (name.starts_with("check")) continue;  // the checker has words of its own
+    if (name.starts_with("check")) continue;  // the checker words it differently
     EXPECT_NE(process.err.find("windows are missing: it has 2, the log tells of 3"), std::string::npos) << process.err;
   }
 }
@@ -154,7 +154,7 @@ TEST_F(Damage, TheLogMayLagBehind) {
   std::string text = bytes_of(log);
   for (int lines = 0; !text.empty(); ++lines) {
     text.resize(text.size() - 1);
-    text.resize(text.rfind('\n') + 1);  // 0 where there is none
+    text.resize(text.rfind('\n') + 1);  // 0 if there is none
     std::ofstream(log, std::ios::binary) << text;
     for (const auto& [name, words] : commands_) EXPECT_EQ(run_noli(words).exit_code, 0) << name << lines;
   }
@@ -182,7 +182,7 @@ TEST_F(Damage, SeriesThatAreDamagedAreWrittenAgain) {
   EXPECT_EQ(run_noli({"info", run_}).exit_code, 0);
 }
 
-/// Of what is read all bytes, or some, through everybody; of the rest those that --resume and info look at.
+/// Flips bits in all bytes of each file, or in some of them, and runs every command.
 TEST_F(Damage, SlowNobodyAnswersWithLessThanTheTruth) {
   for (const std::string file : run_files) {
     const std::size_t step = file == "series.h5" ? 2001 : trials(61, 1);

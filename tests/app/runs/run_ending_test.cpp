@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `noli verify RUN` says of where a run ends, and why.
+// Tests what `noli verify RUN` reports about where a run ends, and why.
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs with random changes under checksums that fit, through every command that reads a run: each ends by itself, with
-// an exit code, and never says that the machine or noli is at fault.
+// Tests every command that reads a run on runs with random changes and correct checksums. Each ends by itself, with an
+// exit code, and never blames the machine or noli.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -16,7 +16,7 @@ namespace {
 
 class RunMutations : public Simulate {
  protected:
-  /// Returns how many of the commands refused their run.
+  /// Returns the number of commands that refused their run.
   int expect_ends(const Json& json, int count, std::uint64_t seed) {
     const std::string file = scene(json), whole = run_path("whole"), run = run_path("run");
     fs::remove_all(whole);
@@ -38,7 +38,7 @@ class RunMutations : public Simulate {
   }
 
  private:
-  /// One to three, mostly of windows.
+  /// One to three changes, mostly of windows.
   static std::string random_changes(std::mt19937_64& random) {
     std::string changes;
     for (std::uint64_t n = 1 + random() % 3; n > 0; --n) {
@@ -90,7 +90,7 @@ Json frames_of_cloths() {
   return json;
 }
 
-/// Found by the fuzzer: the point is put onto the floor, which was an internal error.
+/// Found by fuzzing: a point moved onto the floor once caused an internal error.
 TEST_F(RunMutations, WhatContactDoesNotAllowIsNotReproduced) {
   const std::string file = scene(short_bounce()), run = run_path("run");
   ASSERT_EQ(run_noli({"simulate", file, "-o", run}).exit_code, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bytes that a run is about to write: how many are said, and what happens when the disk will not hold them.
+// Tests the predicted size of a run, and what happens if the disk is too small for it.
 #include "certify/simulate/run_space.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(RunSpace, WhatIsThereCountsOff) {
   run.series = false;
   const double whole = bytes_to_come(scene, explanation, run).motion;
   EXPECT_GT(whole, explanation.bytes_in_all);
-  // From then on the run itself tells how much a second takes, however many windows that has.
+  // Once the run has begun, its own bytes per second count, however many windows a second has.
   run.bytes_there = 75'000;
   run.time_there = 0.75;
   for (const std::uint64_t windows : {75, 1000}) {
@@ -117,7 +117,7 @@ TEST_F(Simulate, TheBytesToComeAreSaidAndAreAboutThoseThatCome) {
 TEST_F(Simulate, ADiskThatWillNotHoldTheRunIsKnownBeforeItBegins) {
   Json json = hanging_sheet();
   json["duration"] = 1e9;
-  json["gravity"] = {0, 0, 0};  // at rest, so that nothing but the interruption ends it
+  json["gravity"] = {0, 0, 0};  // at rest, so that only the interruption ends it
   json["bodies"][0].erase("perturb");
   const std::string file = scene(json), run = run_path("run");
   const Process process = run_noli({"simulate", file, "-o", run});
@@ -127,7 +127,7 @@ TEST_F(Simulate, ADiskThatWillNotHoldTheRunIsKnownBeforeItBegins) {
   EXPECT_FALSE(fs::exists(run));
   EXPECT_EQ(run_noli({"simulate", file, "-o", run, "--until", "0.05"}).exit_code, 0);
   EXPECT_EQ(run_noli({"simulate", file, "-o", run, "--resume"}).exit_code, 4);
-  EXPECT_EQ(json_of({"verify", run}, 0)["run"]["end"], "done");  // the refused call has left no trace
+  EXPECT_EQ(json_of({"verify", run}, 0)["run"]["end"], "done");  // the refused call left no trace
   const Process meant = run_noli({"simulate", file, "-o", run, "--resume", "--ignore-space"}, interrupt_after(200));
   EXPECT_EQ(meant.exit_code, 2) << meant.err;
 }

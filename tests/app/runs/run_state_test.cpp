@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs whose states (certify/runs/run_series.h) hold numbers that cannot be, under checksums that fit: every command
+// Tests runs whose states (certify/runs/run_series.h) contain impossible numbers, with correct checksums: every command
 // that reads a run refuses them and names the window.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Windows count from 1 wherever somebody reads or types a number, whatever the bytes of the files have.
+// Tests that windows count from 1 wherever users read or type a number, even if files count from 0.
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"
@@ -13,7 +13,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST_F(Simulate, WindowsCountFromOneInEveryCommand) {
   const std::string file = scene(falling_triangle()), run = run_path("run");
-  // 39 windows are done; the contact is in the next one.
+  // 39 windows are complete; the contact is in the next one.
   const Json json = json_of({"simulate", file, "-o", run}, 1);
   EXPECT_EQ(json["windows"], 39);
   EXPECT_EQ(json["first"]["window"], 40);
@@ -130,7 +130,7 @@ TEST_F(Simulate, AWindowWithTooManyBreakpointsEndsEarly) {
   EXPECT_EQ(whole["windows"], whole["windows_total"]);
   EXPECT_EQ(whole["time"], 0.2);
   const Json info = json_of({"info", run}, 0)["files"][0];
-  // A window has what happens at its last time, too, and its end for each vertex.
+  // A window includes the events at its last time, and an end for each vertex.
   EXPECT_LT(info["most_breakpoints_in_a_window"], most + 3 * info["vertices"].get<std::uint64_t>());
   EXPECT_EQ(info["end_time"], 0.2);
   EXPECT_EQ(info["windows"], whole["windows"]);
@@ -174,7 +174,7 @@ TEST_F(Simulate, WindowsThatEndedEarlyAreMadeAgain) {
             0);
 }
 
-// --- The end that is asked for ---------------------------------------------------------------------------------------
+// --- The requested end -----------------------------------------------------------------------------------------------
 
 TEST_F(Simulate, UntilBeyondTheDurationHasToBeMeant) {
   const std::string file = scene(hanging_sheet()), run = run_path("run");  // 0.25 s in 25 windows
@@ -185,7 +185,7 @@ TEST_F(Simulate, UntilBeyondTheDurationHasToBeMeant) {
       << beyond.err;
   EXPECT_FALSE(fs::exists(run));
   EXPECT_EQ(run_noli({"simulate", file, "-o", run, "--past-duration"}).exit_code, 3);
-  // Up to the end it is not beyond.
+  // The end itself is not beyond.
   EXPECT_EQ(json_of({"simulate", file, "-o", run, "--until", "0.25"}, 0)["windows"], 25);
   const std::vector<std::string> longer = {"simulate", file, "-o", run, "--until", "0.3", "--resume"};
   EXPECT_EQ(run_noli(longer).exit_code, 3);
@@ -207,10 +207,10 @@ TEST_F(Simulate, AuditsOfPrecisionStopAtTheDurationToo) {
   EXPECT_EQ(audit({"--past-duration"}).exit_code, 0);
 }
 
-// --- The end that came -----------------------------------------------------------------------------------------------
+// --- The actual end --------------------------------------------------------------------------------------------------
 
-/// The verdict follows from the windows that are there, whenever the stop came. Before the run has begun, nothing is
-/// told but why it ended.
+/// The verdict follows from the committed windows, whenever the stop came. Before the run has begun, only the reason of
+/// the stop is reported.
 void expect_done_or_undecided(const Process& process) {
   if (process.out.empty()) {
     EXPECT_EQ(process.exit_code, 2) << process.err;

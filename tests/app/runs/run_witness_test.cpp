@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs in which something touches, or comes too near: `noli verify` has a witness, which both checkers take.
+// Tests runs in which something touches or comes too near: `noli verify` writes a witness that both checkers accept.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// Loose points, edges and faces that jump about: positions on a coarse grid, breakpoints of their own.
+/// Loose points, edges and faces that jump around on a coarse grid, with individual breakpoints.
 class WildRun {
  public:
   WildRun(unsigned seed, std::uint32_t dimension) : random_(seed) {
@@ -27,7 +27,7 @@ class WildRun {
     scene_.labels.assign(v, 0);
   }
 
-  /// Windows of 1 s, the second of which begins where the first ends.
+  /// Writes windows of 1 s; each begins where the one before ends.
   void write(const fs::path& folder, int windows) {
     fs::create_directories(folder);
     RunWriter writer(folder, scene_);
@@ -44,7 +44,7 @@ class WildRun {
  private:
   std::size_t below(std::size_t n) { return random_() % n; }
   double coordinate() { return static_cast<double>(below(65)) / 16; }
-  /// Apart from each other by where they live, but not by much.
+  /// A random position; the regions of different vertices overlap partly.
   Position place(VertexId v) {
     return {coordinate() + 1.0 * v, coordinate(), scene_.header.dimension == 2 ? 0 : coordinate()};
   }
@@ -78,7 +78,7 @@ class RunWitness : public Simulate {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_noli(arguments);
   }
-  /// The exit code on which all checkers that are there agree.
+  /// The exit code on which all checkers that are built agree.
   int check(const std::string& run, const std::string& distance = "0") const {
     const std::vector<std::string> asked = {"check", proof(), run, "--require", "distance=" + distance};
     const Process plain = run_noli(asked);
@@ -135,7 +135,7 @@ TEST_F(RunWitness, TheMeshMayAllowLess) {
   const double allowed = first["allowed"], limit = first["not"];
   EXPECT_NE(process.out.find("The first frame allows "), std::string::npos);
   EXPECT_EQ(check(run_path("run"), "0.5"), 1);
-  // The cells are squares of 1/6, each cut in two, a little out of place.
+  // The cells are squares of 1/6, each split in two and slightly perturbed.
   EXPECT_GT(allowed, 0.11);
   EXPECT_LT(limit, 0.13);
   EXPECT_LT(limit, allowed * (1 + 0x1p-19));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who writes to the folder of a run: one at a time, only to files of the run, while others read.
+// Tests writers of a run folder: one at a time, only files of the run, while others read.
 #include <gtest/gtest.h>
 
 #include <future>
@@ -30,7 +30,8 @@ class Writers : public Simulate {
     return run_noli(words);
   }
 
-  /// Two starts on one folder, the second after a pause. Who says to have written has, and nobody ends otherwise.
+  /// Starts two commands on one folder, the second after a pause. A command that reports success has written the run;
+  /// the other one is refused.
   void race(const std::vector<std::string>& second, std::chrono::microseconds pause) {
     const std::string run = run_path("raced");
     fs::remove_all(run);
@@ -42,8 +43,8 @@ class Writers : public Simulate {
       EXPECT_EQ(process->exit_code, 3) << process->err;
       const bool told = process->err.find(" is being written by ") != std::string::npos ||
                         process->err.find(": is being written by ") != std::string::npos;
-      const bool too_early = process->err.find("is no run") != std::string::npos;        // nobody has made it yet
-      const bool too_late = process->err.find("is there already") != std::string::npos;  // the second has
+      const bool too_early = process->err.find("is no run") != std::string::npos;        // not created yet
+      const bool too_late = process->err.find("is there already") != std::string::npos;  // created by the second
       EXPECT_TRUE(told || (process == &two && too_early) || (process == &one && too_late)) << process->err;
       (told ? told_ : not_told_)++;
     }
@@ -107,7 +108,7 @@ TEST_F(Writers, ReadersSayThatTheRunIsBeingWritten) {
   }
 }
 
-/// A run of a second, with a reader that looks again and again.
+/// A run that takes about a second, with a reader that looks again and again.
 TEST_F(Writers, ARunThatGrowsIsVerifiedUpToWhereItIs) {
   Json json = hanging_sheet();
   json["duration"] = 1.4;
@@ -204,7 +205,7 @@ TEST_F(Writers, FilesOfOthersAreLetBe) {
   EXPECT_TRUE(blocks("run") == blocks("whole"));
   EXPECT_FALSE(fs::exists(run + "/series.h5.part"));
   for (const std::string& other : others) EXPECT_EQ(bytes_of(folder.path(other)), "mine") << other;
-  // Of those alone it is no run.
+  // A folder with only such files is not a run.
   fs::create_directory(run_path("none"));
   folder.write("none/0.ply", "mine");
   for (const char* const how : {"--resume", "--force"}) {

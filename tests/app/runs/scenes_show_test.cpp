@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paper's examples show what they say they show (scenes/README.md): numbers that are read from runs of their short
-// forms.
+// Tests that the paper's examples show what scenes/README.md says: numbers read from runs of their short forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,9 +21,9 @@ namespace {
 
 double distance(const Position& p, const Position& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
-// --- Numbers of knots ------------------------------------------------------------------------------------------------
+// --- Knot invariants -------------------------------------------------------------------------------------------------
 
-/// An open curve from -x to x, with an overhand knot of this hand in it, or none.
+/// An open curve from -x to x with an overhand knot of this handedness, or without a knot.
 Curve overhand(double hand) {
   Curve curve{{-9, 2.4, 0}};
   for (int i = 0; i <= 40; ++i) {
@@ -56,7 +55,7 @@ TEST(Knots, InvariantsAreThoseOfTheTables) {
 
 class SceneShowsSlow : public Simulate {
  protected:
-  /// Runs a scene's short form. Reads where everything is after each window, and at the start.
+  /// Runs a scene's short form and reads all positions at the start and after each window.
   void run(const std::string& name) {
     const fs::path file = fs::path(NOLI_SOURCE_DIR) / "scenes" / (name + ".json");
     const Process process = run_noli({"simulate", file.string(), "--short", "-o", run_path("run")});
@@ -71,7 +70,7 @@ class SceneShowsSlow : public Simulate {
 
   const std::vector<Position>& begin() const { return states_.front(); }
   const std::vector<Position>& end() const { return states_.back(); }
-  /// Of the short form, after this part of it.
+  /// The positions after this fraction of the short form.
   const std::vector<Position>& after(double part) const {
     return states_[static_cast<std::size_t>(part * static_cast<double>(states_.size() - 1))];
   }
@@ -85,7 +84,7 @@ class SceneShowsSlow : public Simulate {
     return std::span(x).subspan(first_vertex(body), built_.bodies[body].vertices);
   }
 
-  /// The middle of a ribbon of so many vertices across, from end to end.
+  /// The centre line of a ribbon with `across` vertices across, from end to end.
   Curve middle(const std::vector<Position>& x, std::size_t body, std::size_t across) const {
     const auto all = vertices(x, body);
     Curve curve;
@@ -98,7 +97,7 @@ class SceneShowsSlow : public Simulate {
     }
     return curve;
   }
-  /// How much longer than at the start the twentieth of a ribbon at its beginning (or end) is.
+  /// The strain of the first (or last) twentieth of a ribbon since the start.
   double strain(std::size_t body, std::size_t across, bool at_end) const {
     Curve before = middle(begin(), body, across), now = middle(end(), body, across);
     if (at_end) {
@@ -113,7 +112,7 @@ class SceneShowsSlow : public Simulate {
     return length / rest - 1;
   }
 
-  /// Of a closed body [m^3].
+  /// The volume of a closed body [m^3].
   double volume(const std::vector<Position>& x, std::size_t body) const {
     const std::size_t first = first_vertex(body), last = first + built_.bodies[body].vertices;
     double six = 0;
@@ -170,9 +169,9 @@ TEST_F(SceneShowsSlow, TheReefKnotHolds) {
       EXPECT_GT(tension, 0.01);
     }
   }
-  // Each ribbon, closed between its ends, winds about the other as often one way as the other one.
+  // The ribbons, closed between their ends, wind around each other equally often in both directions.
   for (const auto* x : {&begin(), &end()}) EXPECT_EQ(linking_number(middle(*x, 0, 4), middle(*x, 1, 4)), 0);
-  // And each is hooked behind the other: left reaches further right than right does left.
+  // They hook into each other: the left one reaches further right than the right one reaches left.
   double rightmost = -1, leftmost = 1;
   for (const Position& p : middle(end(), 0, 4)) rightmost = std::max(rightmost, p[0]);
   for (const Position& p : middle(end(), 1, 4)) leftmost = std::min(leftmost, p[0]);
@@ -194,7 +193,7 @@ TEST_F(SceneShowsSlow, TheCompactorCompacts) {
 TEST_F(SceneShowsSlow, TheCurtainsSwingAgain) {
   run("curtains");
   const std::size_t each = vertices(begin(), 0).size() / 2;
-  // Struck at 1.2 s of 4 s: the hems fly up; at the end both hang below the rail, and swing.
+  // The curtains are struck at 1.2 s of 4 s and their hems fly up. At the end both hang below the rail and swing.
   double highest = -2, least = 1, greatest = -1;
   for (double part = 0.32; part < 1; part += 0.005) {
     for (std::size_t sheet = 0; sheet < 2; ++sheet) {

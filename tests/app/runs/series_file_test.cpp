@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of series, read back by HDF5's own functions; and what becomes of them when noli_series does not come to its
-// end.
+// Tests files of series, read back by HDF5's own functions, and the effect of a noli_series that fails.
 #include "certify/runs/series_file.h"
 
 #ifdef NOLI_SERIES
@@ -25,7 +24,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// An array as HDF5 gives it.
+/// An array as read by HDF5.
 template <class T>
 struct Array {
   std::vector<hsize_t> shape;
@@ -70,7 +69,7 @@ Array<T> read_array(const std::filesystem::path& path, const std::string& name, 
 
 class Series : public ::testing::Test {
  protected:
-  /// As noli does at its start.
+  /// Ignores SIGPIPE, as noli does at its start.
   Series() { std::signal(SIGPIPE, SIG_IGN); }
 
   test::TemporaryFolder folder;
@@ -81,13 +80,13 @@ class Series : public ::testing::Test {
     program.file = file;
     return program;
   }
-  /// A shell script in its place.
+  /// A shell script in place of noli_series.
   SeriesProgram script(const std::string& lines) const {
     const std::filesystem::path file = folder.write("script", "#!/bin/sh\n" + lines + "\n");
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return program(file);
   }
-  /// Writes a megabyte; what the WriteError says.
+  /// Writes a megabyte and returns the message of the WriteError.
   std::string failure(const SeriesProgram& of) const {
     try {
       SeriesFile file(path, of);
@@ -222,7 +221,7 @@ TEST_F(Series, ALinkIsNotFollowed) {
   EXPECT_THROW(SeriesFile(path, program()), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "dangling"));
   std::filesystem::remove(path.string() + ".part");
-  std::filesystem::create_symlink(target, path);  // the name itself is replaced, not what it means
+  std::filesystem::create_symlink(target, path);  // the link is replaced, not its target
   SeriesFile(path, program()).close();
   EXPECT_EQ(test::read_text(target), "theirs");
   EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(path)));
@@ -236,9 +235,9 @@ TEST_F(Series, WhatTakesThePartsPlaceDoesNotTakeTheName) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"series.h5.part"}));
 }
 
-// --- Programs that do not come to their end --------------------------------------------------------------------------
+// --- Programs that fail ----------------------------------------------------------------------------------------------
 
-/// As if the disk were full, for the programs that are started meanwhile.
+/// Simulates a full disk for programs that are started while it exists.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -300,9 +299,9 @@ TEST_F(Series, AProgramThatIsMissingIsNotThere) {
   expect_nothing_left();
 }
 
-// --- Its stream ------------------------------------------------------------------------------------------------------
+// --- The stream of noli_series ---------------------------------------------------------------------------------------
 
-/// What the program says of a stream, and its exit code.
+/// The program's message about a stream, and its exit code.
 std::string said_of(const test::TemporaryFolder& folder, const std::string& stream) {
   folder.write("stream", stream);
   const std::string in = (folder / "stream").string(), out = (folder / "out").string(), err = (folder / "err").string();
@@ -349,7 +348,7 @@ TEST_F(Series, AStreamThatIsNoneIsRefused) {
   refused([](std::string& s) { put_values(s, 0, 1, 4); }, "neither rows of the array a nor a part of one");
   refused([](std::string& s) { put_values(s, 0, 0, 0); }, "an empty piece");
   refused([](std::string& s) { put(s, std::uint64_t{4}); }, "message 4; expected 1, 2 or 3");
-  // HDF5 has its own mind about names.
+  // HDF5 restricts names.
   std::string stream = open;
   put_array(stream, {Type::f64, "a", "1", {1}});
   put_end(stream);

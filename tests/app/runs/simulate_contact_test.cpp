@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes with forces of contact, by the command.
+// Tests scenes with contact forces with the `noli` command.
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/killer.h"
@@ -18,7 +18,7 @@ TEST_F(Simulate, ContactKeepsThingsApart) {
   EXPECT_EQ(json["too_near"], nullptr);
   EXPECT_GE(json["timing"]["certificates"]["deepest"], 1);
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
-  // Without forces of contact they do meet.
+  // Without contact forces they do meet.
   Json bare = two_cloths();
   bare.erase("contact");
   EXPECT_EQ(json_of({"simulate", scene(bare), "-o", run_path("bare")}, 1)["verdict"], "contact");
@@ -101,7 +101,7 @@ TEST_F(Simulate, AGapWithinAllLayersAtTheStartIsTold) {
   EXPECT_NE(told.out.find("the scene begins with them 0.0078125 m apart, within the thickness of contact, 0.1 m"),
             std::string::npos)
       << told.out;
-  // Half as far within the first layer it has room.
+  // At half this depth in the first layer, there is enough space.
   json["bodies"][1]["mesh"]["points"]["at"][0][1] = 0.09;
   EXPECT_EQ(json_of({"simulate", scene(json), "-o", run_path("far")}, 0)["too_near"], nullptr);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs of small scenes, for the tests of the commands that write and read them.
+// Runs small scenes for the tests of commands that write and read runs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class Simulate : public testing::Test {
     return bytes_of(fs::path(folder.path(run)) / "trajectory.blocks");
   }
 
-  /// A small sheet that hangs by two corners and swings.
+  /// A small sheet that hangs from two corners and swings.
   static Json hanging_sheet() {
     return Json::parse(R"({
       "noli_scene": 1, "title": "hanging sheet", "duration": 0.25, "window": 0.01, "gravity": [0, 0, -9.81],
@@ -42,8 +42,8 @@ class Simulate : public testing::Test {
                   "pin": [0, 6]}]})");
   }
 
-  /// A triangle whose lowest corner comes down through one that rests: all numbers are short, so the first time is
-  /// 0.3125 s exactly.
+  /// A triangle whose lowest corner falls through a resting one. All numbers are short, so the first time is exactly
+  /// 0.3125 s.
   Json falling_triangle() const {
     folder.write("level.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("upright.obj", "v 0 -0.25 0.3125\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nf 1 2 3\n");
@@ -70,7 +70,7 @@ inline Json resting_bar(double duration, double window) {
   return json;
 }
 
-/// A small cloth that falls onto a pinned one that lies aslant below it.
+/// A small cloth that falls onto a pinned, tilted one below it.
 inline Json two_cloths() {
   const Json material = {{"young", 2e4}, {"density", 200}, {"thickness", 0.001}};
   return {{"noli_scene", 1},
@@ -101,7 +101,7 @@ inline Json last_entry(const std::string& run) {
 /// Adds a line to the log of a run.
 inline void add_entry(const std::string& run, const nlohmann::ordered_json& entry) { RunLog(run).append(entry); }
 
-/// Whether `noli report` is built; says so when a test has to go without it.
+/// Whether `noli report` is built; if not, prints that the test runs without it.
 inline bool reports_are_there() {
   const bool there =
       run_noli({"report", "absent", "-o", "absent"}).err.find("built without reports") == std::string::npos;
@@ -116,7 +116,7 @@ inline ProcessOptions interrupt_after(int milliseconds) {
   return options;
 }
 
-/// A beam in the plane: cheap, so it can run for long.
+/// A beam in the plane, cheap enough for long runs.
 inline Json beam(double duration) {
   Json json = Json::parse(bytes_of(fs::path(NOLI_SOURCE_DIR) / "scenes/cantilever.json"));
   json["duration"] = duration;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run becomes when its series.h5 cannot be written: it is complete, and `--resume` writes the file.
+// Tests runs whose series.h5 cannot be written: the run is complete, and `--resume` writes the file.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -12,14 +12,14 @@ namespace {
 
 class SimulateSeries : public Simulate {
  protected:
-  /// Its series are much larger than its motion.
+  /// A scene whose series are much larger than its motion.
   static Json many_frames() {
     Json json = resting_bar(1, 0.25);
     json["frame_rate"] = 1e5;
     return json;
   }
 
-  /// noli without the programs that lie beside it.
+  /// noli without the programs beside it.
   std::string lonely_noli() const {
     fs::create_directory(folder.path("bin"));
     const std::string program = folder.path("bin/noli");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a run stops early: within a window, while its series is written; and what cannot be run at all.
+// Tests runs that stop early, within a window or while the series is written, and scenes that cannot run at all.
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"
@@ -8,7 +8,7 @@
 namespace noli::app_tests {
 namespace {
 
-/// Of a run whose series.h5 takes longer to read than a stop waits.
+/// Reading the series.h5 of this run takes longer than a stop waits.
 TEST_F(Simulate, AStoppedRunWithALargeSeriesSaysItsVerdict) {
   Json json = beam(10000);
   json["frame_rate"] = 20000;
@@ -62,7 +62,7 @@ TEST_F(SimulateStop, TimeLimitsWithinWindowsChangeNoByte) {
   EXPECT_TRUE(blocks("parts") == blocks("whole"));
 }
 
-/// A sheet that falls onto a pinned one, whose layers are soft: they go deep, and take memory for it.
+/// A sheet that falls onto a pinned one with soft layers, which go deep and need memory.
 Json soft_landing() {
   const auto sheet = [](double size) -> Json { return {{"grid", {{"size", {size, size}}, {"cells", {40, 40}}}}}; };
   return {{"noli_scene", 1},
@@ -104,7 +104,7 @@ TEST_F(SimulateStop, TooLittleMemoryKeepsWhatIsCommitted) {
   }
   ASSERT_GT(most, 1U);
   ASSERT_LT(most, 1000U);
-  // What ran out of memory goes on where there is some, to the same bytes.
+  // The run that ran out of memory resumes with enough memory, to the same bytes.
   const std::string until = std::to_string(0.001 * static_cast<double>(most + 1));
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("whole"), "--until", until}).exit_code, 0);
   const std::string first = "230000000";

@@ -49,7 +49,7 @@ TEST_F(Simulate, EndsAtTheFirstContactAndNamesIt) {
   EXPECT_EQ(last["first_time"], 0.3125);
   const Json verified = json_of({"verify", run_path("run")}, 0);
   EXPECT_EQ(verified["steps"], 39);
-  // A little less, and nothing touches.
+  // If it ends slightly earlier, nothing touches.
   EXPECT_EQ(run_noli({"simulate", file, "-o", run_path("short"), "--until", "0.3"}).exit_code, 0);
 }
 
@@ -64,7 +64,7 @@ TEST_F(Simulate, ABeginningInContactIsRefusedWithItsPairs) {
 }
 
 TEST_F(Simulate, CellsThatIntersectAtTheBeginningAreNamed) {
-  // Like a sail through a deck: no vertex meets a face, no edge an edge.
+  // Like a sail through a deck: no vertex meets a face, and no edge meets an edge.
   folder.write("deck.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n");
   folder.write("sail.obj", "v 2 2 -1\nv 2 2 1\nv 3 2 2\nf 1 2 3\n");
   Json json = falling_triangle();
@@ -86,7 +86,7 @@ TEST_F(Simulate, ABeginningInContactIsRefusedWhenResumedToo) {
   Json json = falling_triangle();
   json["bodies"][1]["transform"] = {{"translate", {0, 0, -0.3125}}};
   const std::string file = scene(json);
-  fs::create_directory(run_path("run"));  // as a call leaves it that ended before the run began
+  fs::create_directory(run_path("run"));  // left by a call that ended before the run began
   const Process process = run_noli({"simulate", file, "-o", run_path("run"), "--resume"});
   EXPECT_EQ(process.exit_code, 3);
   EXPECT_NE(process.err.find("the scene begins in contact"), std::string::npos) << process.err;
@@ -126,7 +126,7 @@ TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   EXPECT_GT(json["energy"]["integration"], 0.01);
   const Json& astray = json["energy"]["astray"];
   EXPECT_GT(astray["there"], 100 * astray["begin"].get<double>());
-  // All windows are there, verified, and a run that was stopped half way says the same.
+  // All windows are committed and verified, and a run that was stopped halfway says the same.
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
   run_noli({"simulate", file, "-o", run_path("parts"), "--until", "54"});
   const Process resumed = run_noli({"simulate", file, "-o", run_path("parts"), "--resume"});
@@ -174,7 +174,7 @@ TEST_F(Simulate, SlowKilledAHundredTimesARunHasTheSameBytes) {
 
 TEST_F(Simulate, InterruptedRunsEndAtTheLastWindow) {
   Json json = hanging_sheet();
-  json["bodies"][0].erase("pin");  // it falls, and meets nothing however long
+  json["bodies"][0].erase("pin");  // it falls forever without contact
   json["duration"] = 10000;
   const std::string file = scene(json);
   ProcessOptions options;
@@ -211,7 +211,7 @@ TEST_F(Simulate, NumbersThatRunOutAreNamed) {
   const Process refused = run_noli({"simulate", scene(json), "-o", run_path("run")});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("/bodies/0/steps/stretch"), std::string::npos) << refused.err;
-  // A chain in the plane has nothing to run into before its numbers end.
+  // A chain in the plane meets nothing before its numbers overflow.
   json = Json::parse(R"({
       "noli_scene": 1, "dimension": 2, "duration": 1000, "window": 0.01, "allow_unstable": true,
       "bodies": [{"name": "pair", "mesh": {"chain": {"points": [[0, 0], [1, 0]], "segments": 1}},
@@ -247,7 +247,7 @@ TEST_F(Simulate, WhatExplainNotesIsToldBeforeTheRun) {
   const std::string calm = scene(json);
   ASSERT_EQ(run_noli({"explain", calm}).out.find("Note: "), std::string::npos);
   const std::string calmly = run_noli({"simulate", calm, "-o", run_path("calm")}).err;
-  EXPECT_EQ(calmly.find("noli: note: about "), 0u) << calmly;  // of its bytes, and of nothing else
+  EXPECT_EQ(calmly.find("noli: note: about "), 0u) << calmly;  // only about its size
   EXPECT_EQ(std::count(calmly.begin(), calmly.end(), '\n'), 1) << calmly;
   json["allow_unstable"] = true;
   const std::string unstable = scene(json);
@@ -256,7 +256,7 @@ TEST_F(Simulate, WhatExplainNotesIsToldBeforeTheRun) {
   const Process told = run_noli({"simulate", unstable, "-o", run_path("run"), "--json", "-"});
   EXPECT_EQ(told.err.rfind("noli: note: " + note + "noli: note: about ", 0), 0u) << told.err;
   EXPECT_EQ(Json::parse(told.out)["end"], "done");
-  // What is refused is told in one line.
+  // A refusal is a single line.
   const Process refused = run_noli({"simulate", unstable, "-o", run_path("run")});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_EQ(refused.err.find("note"), std::string::npos) << refused.err;
@@ -297,7 +297,7 @@ TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "what the thread sanitizer remembers of memory grows too";
 #endif
-  // Under the address sanitizer what is freed is kept, by default up to 256 MB; elsewhere this means nothing.
+  // The address sanitizer keeps freed memory, by default up to 256 MB; without it, this has no effect.
   add_sanitizer_options("quarantine_size_mb=0:thread_local_quarantine_size_kb=0");
   for (const char* record : {"frames", "full"}) {
     Json json = beam(2);
@@ -310,7 +310,7 @@ TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
     ASSERT_EQ(once.exit_code, 0) << once.err;
     ASSERT_EQ(tenfold.exit_code, 0) << tenfold.err;
     EXPECT_LT(static_cast<double>(tenfold.peak_bytes), 1.1 * static_cast<double>(once.peak_bytes)) << record;
-    // Nor does that of reading it, resuming included.
+    // Nor does the memory for reading the run, including resumption.
     const Process short_verify = run_noli({"verify", run_path(record + std::string("once"))});
     const Process long_verify = run_noli({"verify", run_path(record + std::string("tenfold"))});
     EXPECT_LT(static_cast<double>(long_verify.peak_bytes), 1.1 * static_cast<double>(short_verify.peak_bytes));
@@ -322,7 +322,7 @@ TEST_F(Simulate, MemoryDoesNotGrowWithTheLength) {
   }
 }
 
-/// Of each window: the hash of its world lines.
+/// The hash of each window's world lines.
 std::vector<Sha256Digest> hashes(const std::string& run) {
   std::vector<Sha256Digest> result;
   RunReader reader(run);
@@ -454,7 +454,7 @@ TEST_F(Simulate, WithoutCellsThereIsNothingToCertify) {
 
 TEST_F(Simulate, OnlyRunsAreReplaced) {
   const std::string file = scene(hanging_sheet());
-  const std::string there = fs::path(file).parent_path();  // with nothing but the scene
+  const std::string there = fs::path(file).parent_path();  // contains only the scene
   for (const char* how : {"--force", "--resume"}) {
     const Process process = run_noli({"simulate", file, "-o", there, how, "--until", "0.01"});
     EXPECT_EQ(process.exit_code, 3) << how;

@@ -27,7 +27,7 @@ TEST(StepHistogram, ABinHasItsLowerEndAndNotItsUpper) {
   }
 }
 
-/// Breakpoints of each vertex, at rest.
+/// World lines of resting vertices with breakpoints at these times.
 WorldLines lines_at(const std::vector<std::vector<double>>& all) {
   std::vector<std::size_t> offsets = {0};
   std::vector<double> times;
@@ -47,7 +47,7 @@ TEST(StepHistogram, EachFreeVertexCountsForTheTimeOfItsSteps) {
   const std::vector<StepHistogram::Bin> expected = {{0, whole / 4}, {step_bin(3), whole / 4 * 3}, {8, whole}};
   EXPECT_EQ(h.bins, expected);
   EXPECT_EQ(h.ticks(), 2 * whole);
-  // Up to 3 s are the first bin and the second.
+  // The first and second bin reach up to 3 s.
   EXPECT_NEAR(h.quantile(0.5), bin_begin(step_bin(3) + 1), 1e-12);
 }
 

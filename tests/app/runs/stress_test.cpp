@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes that are hard on memory and time (scenes/stress): each ends with a verdict within two gigabytes of addresses
-// and its --time-limit, and each but one runs to its end. What a scene shows is read from its result.
+// Tests scenes that need much memory and time (scenes/stress). Each ends with a verdict within two gigabytes of address
+// space and its --time-limit, and each except one runs to its end. Tests read the effect of a scene from its result.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ class StressSlow : public Simulate {
     return simulate_file((fs::path(NOLI_SOURCE_DIR) / "scenes/stress" / (name + ".json")).string(), limit);
   }
 
-  /// Of a run that came to its end.
+  /// Expects a run that reached its end.
   void expect_whole(const Process& process) const {
     ASSERT_EQ(process.exit_code, 0) << process.out << process.err;
     ASSERT_NE(process.out.find("NO CONTACT"), std::string::npos) << process.out;
@@ -44,7 +44,7 @@ class StressSlow : public Simulate {
 
   Json explained() const { return json_of({"explain", run_path("run")}, 0); }
 
-  /// Where all vertices are at the end.
+  /// The positions of all vertices at the end.
   std::vector<Position> end() const {
     RunReader reader(run_path("run"));
     std::vector<Position> last;
@@ -151,7 +151,7 @@ TEST_F(StressSlow, AnObstacleSwellsUnderACloth) {
   EXPECT_GT(mean_height(std::span(x).first(289)), 0.02) << "it lies on the hill, and began at 4 mm";
 }
 
-/// Lifted by 0.1 m up to 1.4 s, then held for ten seconds.
+/// The box is lifted by 0.1 m until 1.4 s, then held for ten seconds.
 TEST_F(StressSlow, ABoxIsGrippedLiftedAndHeld) {
   expect_whole(simulate("grip", "200s"));
   RunReader reader(run_path("run"));
@@ -166,8 +166,8 @@ TEST_F(StressSlow, ABoxIsGrippedLiftedAndHeld) {
   EXPECT_NEAR(held, lifted, 1e-6) << "a ten-thousandth of a millimetre a second";
 }
 
-/// The deeper the layers, the more there is to do: this one does not come to its end in any time. Its windows end
-/// early, so it is heard when the time is over, and goes on from where it was.
+/// The deeper the layers, the more work: this scene never reaches its end. Its windows end early, so that it stops at
+/// the time limit and can be resumed.
 TEST_F(StressSlow, APinchEndsWithItsTime) {
   const Process process = simulate("pinch", "20s");
   EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
@@ -179,8 +179,8 @@ TEST_F(StressSlow, APinchEndsWithItsTime) {
   EXPECT_GT(run["windows"].get<double>(), run["time"].get<double>() / 0.002 + 1) << "windows end early";
 }
 
-/// Ten thousand layers act from the start, each with steps a million times shorter than the first: the window would
-/// have some thousand million breakpoints.
+/// Ten thousand layers act from the start, with steps up to a million times shorter than the first layer's: the window
+/// would have about a billion breakpoints.
 TEST_F(StressSlow, APointTenThousandLayersDeepOnBothSides) {
   Json json = {{"noli_scene", 1}, {"dimension", 2}, {"duration", 1}, {"window", 0.01}};
   json["bodies"] = Json::parse(R"([

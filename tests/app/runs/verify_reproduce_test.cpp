@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli verify RUN --reproduce`: runs that recorded frames, verified again.
+// Tests `noli verify RUN --reproduce`, which verifies runs that recorded frames again.
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"
@@ -14,7 +14,7 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 class Reproduce : public Simulate {
  protected:
-  /// Runs it and returns the folder.
+  /// Runs the scene and returns the folder.
   std::string frames_of(Json json, const std::string& name = "run") const {
     json["record"] = "frames";
     EXPECT_EQ(run_noli({"simulate", scene(json), "-o", run_path(name)}).exit_code, 0);
@@ -63,8 +63,8 @@ TEST_F(Reproduce, ItIsTheMotionThatARunInFullHas) {
   EXPECT_EQ(both["reproduced"], true);
 }
 
-/// Copies a run but for its log, which would tell that it is another motion, with one bit changed in the last byte but
-/// seven of a window's block of this kind.
+/// Copies a run without its log, which would reveal the change, and flips one bit in the eighth byte from the end of a
+/// window's block of this kind.
 void copy_with_a_fault(const std::string& run, const std::string& to, int window, FourLetters kind) {
   fs::copy(run, to);
   fs::remove(fs::path(to) / "log.jsonl");

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A library that is loaded before all others (LD_PRELOAD) and makes calls of a program fail: as if memory had run out,
-// the disk were full, a file system broken. It counts from the first instruction of main() until that returns.
+// Makes calls of a program fail, as if memory had run out, the disk were full or a file system broken. This is a
+// library for LD_PRELOAD. It counts calls from the first instruction of main() until main() returns.
 //
 // Environment
 //   NOLI_FAULT           KIND:N     the N-th call of this kind fails, counted from 1 over all threads
-//                        KIND:N+    so do all that come after it
-//                        nothing    none fails
-//   NOLI_FAULT_PROGRAM   in which program, by its file's name; its children by another name are left alone
-//   NOLI_FAULT_COUNTS    a file; a line "KIND COUNT" is added to it for each kind when the program ends
+//                        KIND:N+    and so do all later ones
+//                        unset      no call fails
+//   NOLI_FAULT_PROGRAM   the file name of the program whose calls fail; children with another name are unaffected
+//   NOLI_FAULT_COUNTS    a file; a line "KIND COUNT" is appended to it for each kind when the program ends
 //
-// Kinds, and what a call that fails leaves in errno
+// Kinds, and the errno of a failing call
 //   allocate  malloc and its kin            ENOMEM
 //   open      files and folders             EMFILE
 //   read      also of folders               EIO
@@ -19,8 +19,8 @@
 //   rename    also link, unlink             EIO
 //   close     the descriptor is closed      EIO
 //
-// What this does not do: it does not see calls that the C library makes of itself (what printf() writes, say), nor
-// those of a program that is linked statically.
+// It does not see calls inside the C library (the writes of printf(), for example), nor those of a statically linked
+// program.
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -39,7 +39,7 @@
 #include <cstring>
 
 extern "C" {
-// Those of the C library itself: dlsym() may allocate.
+// The C library's own functions, because dlsym() may allocate.
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
@@ -68,7 +68,7 @@ int wanted_kind = kinds;
 std::uint64_t wanted = 0;
 bool and_all_after = false;
 
-/// Counts a call. Whether it has to fail; errno says how then.
+/// Counts a call and returns whether it must fail; if so, sets errno.
 bool fails(Kind kind) {
   if (!in_main.load(std::memory_order_relaxed)) return false;
   const std::uint64_t number = counts[kind].fetch_add(1, std::memory_order_relaxed) + 1;
@@ -91,7 +91,7 @@ void read_environment() {
   and_all_after = *end == '+';
 }
 
-/// Without anything that would be counted, or could fail.
+/// Uses only raw system calls, which are neither counted nor made to fail.
 void write_counts() {
   const char* const path = std::getenv("NOLI_FAULT_COUNTS");
   if (path == nullptr) return;
@@ -124,7 +124,7 @@ int counted_main(int argc, char** argv, char** environment) {
   return code;
 }
 
-/// The next function of this name: that of the C library.
+/// The next function of this name, the C library's.
 template <class F>
 F* next(F*, const char* name) {
   return reinterpret_cast<F*>(::dlsym(RTLD_NEXT, name));
@@ -209,7 +209,7 @@ ssize_t pread(int file, void* bytes, std::size_t size, off_t offset) {
 ssize_t pread64(int file, void* bytes, std::size_t size, off64_t offset) {
   return fails(read_file) ? -1 : ::syscall(SYS_pread64, file, bytes, size, offset);
 }
-/// What ferror() tells of the stream then.
+/// Sets the stream's error flag, so that ferror() reports it.
 static void mark_failed(FILE* stream) { stream->_flags |= 0x20; }
 std::size_t fread(void* bytes, std::size_t size, std::size_t count, FILE* stream) {
   NOLI_NEXT(fread);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A library that is loaded before all others (LD_PRELOAD) and records what a program does to the files of one folder,
-// in the order in which it does it: for disk_model.h, which says what a loss of power may leave of that.
+// Records a program's actions on the files of one folder, in order. disk_model.h derives from them what a loss of power
+// may leave. This is a library for LD_PRELOAD.
 //
 // Environment
-//   NOLI_RECORD         the file that the records are added to
-//   NOLI_RECORD_FOLDER  only paths that begin so, and descriptors of such files, are recorded
+//   NOLI_RECORD         the file that records are appended to
+//   NOLI_RECORD_FOLDER  only paths with this prefix, and descriptors of such files, are recorded
 //
-// A record is a line of text, and for a write the bytes after it:
+// A record is a line of text, followed by the bytes for a write:
 //   open FD FLAGS PATH | write FD SIZE | seek FD OFFSET | truncate FD SIZE | sync FD | close FD
 //   rename FROM\tTO | unlink PATH | mkdir PATH
 #include <dlfcn.h>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t most_descriptors = 1024;
 
-/// One record at a time: the order is what matters.
+/// Serialises records, whose order matters.
 std::mutex mutex;
 std::array<bool, most_descriptors> recorded{};
 int out = -1;

@@ -54,7 +54,7 @@ double volume(const Shape& shape) {
   return sum;
 }
 
-/// Every index is of a vertex, every vertex is in a cell, and no two vertices are in one place.
+/// Expects that every index refers to a vertex, every vertex is in a cell, and no two vertices coincide.
 void expect_sound(const Shape& shape) {
   EXPECT_EQ(shape.positions.size(), shape.mesh.vertex_count);
   std::vector<bool> used(shape.mesh.vertex_count);
@@ -75,7 +75,7 @@ void expect_sound(const Shape& shape) {
   }
 }
 
-/// Faces that share an edge run along it in opposite directions.
+/// Whether faces that share an edge traverse it in opposite directions.
 bool oriented(const Mesh& mesh) {
   std::set<std::pair<VertexId, VertexId>> sides;
   for (const auto& f : mesh.faces) {
@@ -103,12 +103,12 @@ void expect_closed_outward(const Shape& shape) {
   EXPECT_EQ(border_edges(shape.mesh), 0u);
   EXPECT_EQ(euler_characteristic(shape.mesh), 2);
   EXPECT_GT(volume(shape), 0);
-  for (const auto& face : shape.mesh.faces) {  // all of these are convex, about the origin
+  for (const auto& face : shape.mesh.faces) {  // convex shapes around the origin
     EXPECT_GT(normal(shape, face).dot(at(shape, face[0]) + at(shape, face[1]) + at(shape, face[2])), 0);
   }
 }
 
-/// Whether the set of positions is the same, bit for bit up to the sign of zero, when `map` is applied.
+/// Whether `map` leaves the set of positions unchanged, bit for bit up to the sign of zero.
 template <class Map>
 bool symmetric(const Shape& shape, Map&& map) {
   std::set<Position> before(shape.positions.begin(), shape.positions.end()), after;

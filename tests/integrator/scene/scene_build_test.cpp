@@ -339,9 +339,9 @@ TEST(Scripts, OnlyFreeVerticesOnce) {
                          {"body": "body0", "vertices": [6, 7], "path": [{"t": 0, "move": [0, 0, 0]}]}])"_json;
   EXPECT_EQ(build_problem(scene), "");
   EXPECT_EQ(build_problem(changed(scene, "/scripts/1/vertices", {7, 5})),
-            "s.json: /scripts/1/vertices: expected vertices that no other script moves; 5 has one");
+            "s.json: /scripts/1/vertices: expected vertices that no other script moves; vertex 5 has a script already");
   EXPECT_EQ(build_problem(changed(scene, "/scripts/1/vertices", {"left"})),
-            "s.json: /scripts/1/vertices: expected vertices that are not pinned; 0 is");
+            "s.json: /scripts/1/vertices: expected vertices that are not pinned; vertex 0 is pinned");
   EXPECT_EQ(build_problem(changed(scene, "/scripts/1/vertices", Json::array())),
             "s.json: /scripts/1/vertices: expected at least one vertex");
 }
@@ -450,7 +450,7 @@ TEST(Scripts, FramesGivePositions) {
 TEST(MeshFiles, ACurveWithoutLengthIsRefused) {
   Json scene = loop();
   scene["bodies"][0]["mesh"] = R"({"chain": {"points": [[1, 1], [1, 1]], "segments": 4}})"_json;
-  EXPECT_EQ(build_problem<2>(scene), "s.json: /bodies/0/mesh/chain: the curve has no length");
+  EXPECT_EQ(build_problem<2>(scene), "s.json: /bodies/0/mesh/chain: expected a curve with a positive, finite length");
 }
 
 }  // namespace

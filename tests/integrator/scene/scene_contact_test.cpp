@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact in scenes: what is read, refused, filled in, built and explained.
+// Tests contact in scenes: reading, errors, defaults, models and explanations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using testing::changed;
 using testing::loop;
 using testing::sheet;
 
-/// Two sheets and a floor that is pinned.
+/// Two sheets and a pinned floor.
 Json sheets(const Json& contact) {
   Json scene = sheet();
   scene["bodies"][0]["name"] = "low";
@@ -45,7 +45,7 @@ ContactSettings settings(const Json& scene) {
   return built<Dim>(scene).model.contact.value();
 }
 
-/// Least and greatest mass of a vertex of the sheet of 10 kg: a corner with two triangles, the middle with eight.
+/// Least and greatest vertex mass of the sheet of 10 kg: a corner with two triangles, the middle with eight.
 constexpr double light = 10.0 * 2 / 24, heavy = 10.0 * 8 / 24;
 const double sheet_bound = std::sqrt(0.125) / 2;  ///< half the height of its triangles of legs 0.5
 
@@ -137,7 +137,7 @@ TEST(SceneContact, CellsThatCannotMoveDoNotBound) {
   EXPECT_NEAR(settings(scene).materials[0].thickness, sheet_bound / 2, 1e-15);
 }
 
-/// A sheet of 8 x 8 cells that is 16 times finer at one place.
+/// A sheet of 8 x 8 cells, 16 times finer at one place.
 Json graded(const Json& contact) {
   Json scene = sheets(contact);
   scene["bodies"][0]["mesh"]["grid"]["cells"] = {8, 8};
@@ -290,8 +290,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"layers": {"thickness_exponent": 0}})",
             "/layers/thickness_exponent: expected a number greater than 0, found 0"},
         Bad{R"({"layers": {"thickness_exponent": 2, "stiffness_exponent": 2.75, "step_exponent": 3}})",
-            "/layers/stiffness_exponent: expected at least 3, twice the thickness_exponent less 1, found 2.75: the "
-            "layers' energies, stiffness * thickness^2, have a finite sum, so that a great speed gets through"},
+            "/layers/stiffness_exponent: expected at least 3, 2 * thickness_exponent - 1, found 2.75: the layers' "
+            "energies, stiffness * thickness^2, have a finite sum, so a fast impact gets through"},
         Bad{R"({"layers": {"thickness_exponent": 1.5}})",
             "/layers/step_exponent: expected more than 1.5, the thickness_exponent, found 1.5: deep layers could be "
             "passed between two of their kicks"},
@@ -361,7 +361,7 @@ TEST(SceneContact, ADefaultStiffnessThatCannotBeUsedSaysWhereItIsFrom) {
         << said;
     EXPECT_NE(
         said.find("no stiffness is given, and its default, 3.33333e+124 [N/m], is the greatest mass of a vertex, "
-                  "3.33333 kg, over the square of the time, 1e-62 s, in which 1e+60 m/s pass a thickness of 0.01 m"),
+                  "3.33333 kg, over the square of the time, 1e-62 s, to cross a thickness of 0.01 m at 1e+60 m/s"),
         std::string::npos)
         << said;
   }
@@ -434,13 +434,13 @@ TEST(ExplainContact, DefaultsThatDependOnOthersAreListed) {
   EXPECT_TRUE(left_out(e, "restitution", "it is 1 everywhere"));
 }
 
-/// Those of them that speak of what comes to touch.
+/// The warnings about bodies that come to touch.
 std::vector<std::string> of_pinches(std::vector<std::string> warnings) {
   std::erase_if(warnings, [](const std::string& w) { return w.find(" come to touch ") == w.npos; });
   return warnings;
 }
 
-/// A ring between two walls; where the upper one goes within the first second.
+/// The warnings for a ring between two walls, when the upper one moves by `move` within the first second.
 std::vector<std::string> warnings_of_walls(double move, double start = 1) {
   Json scene = loop();
   scene["contact"] = Json::object();
@@ -488,7 +488,7 @@ TEST(ExplainContact, WarnsOfScriptsThatPinchInSpace) {
   EXPECT_EQ(std::count_if(through.begin(), through.end(), pinches), 1);
 }
 
-/// Two plates, each 0.1 m from the middle and of the same outline, move to and through it: every contact is degenerate.
+/// Two plates of the same outline on both sides of the middle move to it and through it: every contact is degenerate.
 TEST(ExplainContact, PlatesOfOneOutlinePinchWhenTheyMeet) {
   Json scene = sheets(Json::object());
   scene["bodies"].push_back(scene["bodies"][2]);

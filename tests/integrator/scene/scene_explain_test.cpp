@@ -23,7 +23,7 @@ bool has(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-/// Why something is left out; "" if it is not.
+/// The reason why something is left out; "" if it is not.
 std::string why(const Explanation& explanation, const std::string& what) {
   for (const LeftOut& left_out : explanation.left_out) {
     if (left_out.what == what) return left_out.why;
@@ -81,7 +81,7 @@ TEST(Explain, CurvesDoNotBendInSpace) {
 }
 
 TEST(Explain, EveryDefaultIsListed) {
-  // Each field that a scene does not have, and that no default object stands for, is in the list; none is there twice.
+  // Each field that is missing in the scene, and not part of a default object, is listed exactly once.
   Json scene = sheet();
   scene["gravity"] = {0, 0, -1};
   const Explanation e = explained(scene);
@@ -128,7 +128,7 @@ TEST(Explain, EveryDefaultIsListed) {
   EXPECT_EQ(paths, std::set<std::string>{});
 }
 
-/// Runs a scene and compares what happens in a second with what was predicted.
+/// Runs a scene and compares the events and breakpoints per second with the prediction.
 template <int Dim>
 void expect_prediction(const Json& document, double windows) {
   const Scene scene = parse_scene(document.dump(), "s.json");
@@ -191,7 +191,7 @@ TEST(Explain, WarnsOfWindowsThatAreTooLongAndOfStepsThatAreCut) {
                   "steps above the limit of stability are accepted (\"allow_unstable\")"));
 }
 
-/// One mass of 1 kg between a stiff spring, of frequency 1, and a soft one, with steps of their own: the resonance of
+/// A mass of 1 kg between a stiff spring, of frequency 1, and a soft one, with individual steps: the resonance of
 /// integrator/resonance.h.
 Json two_springs(double soft, double fast_step, double slow_step) {
   Json scene = Json::parse(R"({"noli_scene": 1, "dimension": 2, "duration": 100, "window": 10, "steps": "own",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scenes that are shipped.
+// Tests the shipped scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

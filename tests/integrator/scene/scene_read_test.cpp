@@ -57,7 +57,7 @@ TEST(ReadScene, DefaultVectorsOfThePlaneHaveTwoNumbers) {
 }
 
 struct Bad {
-  const char* pointer;  ///< where the scene is changed; "-..." to remove instead
+  const char* pointer;  ///< where the scene is changed; "-..." to remove the field
   const char* value;
   const char* message;
 };
@@ -113,11 +113,11 @@ INSTANTIATE_TEST_SUITE_P(
             "/bodies/0/material/mass_per_vertex: expected a number greater than 0 [kg], found -1"},
         Bad{"/window", "0", "/window: expected a number greater than 0 [s], found 0"},
         Bad{"/window", "1e-300",
-            "/window: expected more than 8.881784197001252e-16 [s], a part of the duration that can be counted, found "
-            "1e-300"},
+            "/window: expected more than 8.881784197001252e-16 [s], 2^-50 of the duration, found 1e-300: shorter times "
+            "cannot be counted"},
         Bad{"/bodies/0/steps", "{\"bend\": 1e-20}",
-            "/bodies/0/steps/bend: expected more than 8.881784197001252e-16 [s], a part of the duration that can be "
-            "counted, found 1e-20"},
+            "/bodies/0/steps/bend: expected more than 8.881784197001252e-16 [s], 2^-50 of the duration, found 1e-20: "
+            "shorter times cannot be counted"},
         Bad{"/duration", "-1", "/duration: expected a number greater than 0 [s], found -1"},
         Bad{"/dimension", "4", "/dimension: expected 2 or 3, found 4"},
         Bad{"/record", "\"none\"", "/record: expected \"full\" or \"frames\", found \"none\""},
@@ -261,7 +261,7 @@ TEST(ShortForm, ItsValuesAreCheckedToo) {
   EXPECT_EQ(problem_of(scene, Form::brief), "s.json: /short: expected an object, found 5");
 }
 
-/// Calls visit(pointer, value) for all values that are no object, and for numbers and strings in arrays.
+/// Calls visit(pointer, value) for all values that are neither objects nor arrays.
 void visit_leaves(const Json& value, const Json::json_pointer& at,
                   const std::function<void(const Json::json_pointer&, const Json&)>& visit) {
   if (value.is_object()) {
@@ -273,7 +273,7 @@ void visit_leaves(const Json& value, const Json::json_pointer& at,
   }
 }
 
-/// Another value that a scene may have in the same place.
+/// A different valid value for the same field.
 Json other(const Json& value) {
   static const std::map<std::string, std::string> twins = {
       {"frames", "full"}, {"own", "grouped"}, {"parallel", "alternating"}, {"stretch", "bend"},
@@ -321,7 +321,7 @@ TEST(ReadScene, EveryFieldCounts) {
   }
 }
 
-/// The known fields, as "grid.cells": the definition and the field; and those of a document that the schema has.
+/// Collects fields as "grid.cells" (definition and field): all fields of the schema, and those used in a document.
 class Fields {
  public:
   void all(const Json& schema, const std::string& name) {

@@ -21,7 +21,7 @@ std::string parse_error(std::string_view text) {
   return "";
 }
 
-/// What is wrong with a document, "" for nothing.
+/// The error in a document; "" if there is none.
 std::string problem(const char* schema, const char* document) {
   try {
     validate(Json::parse(schema), Json::parse(document), "d");
@@ -50,7 +50,8 @@ TEST(ParseJson, ErrorsNameLineAndColumn) {
 }
 
 TEST(ParseJson, FieldsOccurOnce) {
-  EXPECT_EQ(parse_error(R"({"a": [{"b": 1}, {"b": 1, "c": 2, "b": 3}]})"), "t.json: /a/1/b: this field is there twice");
+  EXPECT_EQ(parse_error(R"({"a": [{"b": 1}, {"b": 1, "c": 2, "b": 3}]})"),
+            "t.json: /a/1/b: expected this field once, found it twice");
   EXPECT_EQ(parse_error(R"({"a": {"b": 1}, "c": {"b": 1}})"), "");
 }
 
@@ -186,11 +187,11 @@ TEST(Schema, TheShippedOneKeepsToTheSubset) {
   const Json shipped = Json::parse(scene_schema_text());
   std::size_t objects = 0;
   visit_schemas(shipped, [&](const Json& schema) {
-    Json alone = schema;  // its parts are visited by themselves
+    Json alone = schema;  // its parts are visited separately
     for (const char* part : {"properties", "$defs", "items", "oneOf", "$ref", "required"}) alone.erase(part);
     try {
       validate(alone, "no schema says this", "d");
-    } catch (const InputError&) {  // of course
+    } catch (const InputError&) {  // expected
     }
     if (schema.contains("properties")) {
       ++objects;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the fuzz target of scenes begins with: its seeds, and scenes in which `noli fuzz scenes` found something. Each
-// is read and explained here as it is there, and ends as is written beside its name: in a scene, or in one message.
+// Tests the seeds of the fuzz target of scenes, and scenes in which `noli fuzz scenes` found something. Each is read
+// and explained as in the fuzz target, and must give a scene or the message listed with its name.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By name: how the message begins behind the file's name; "" for a scene.
+/// For each name: the beginning of the message after the file's name; "" for a valid scene.
 using Ends = std::map<std::string, std::string>;
 
-/// As the fuzz target takes it: 'S' or 'F' for the short or full form and then the text, or the text alone.
+/// Reads input in the form of the fuzz target: 'S' or 'F' for the short or full form, then the text; or only the text.
 std::string end_of(const std::string& input) {
   const bool has_form = input.starts_with('S') || input.starts_with('F');
   try {
@@ -37,7 +37,7 @@ std::string end_of(const std::string& input) {
   }
 }
 
-/// Each file of the folder has its end in the list, and each of the list its file.
+/// Expects that the files of the folder and the names in the list are the same, and that each file ends as listed.
 void expect_ends(const std::string& seeds, Ends ends) {
   for (const auto& file : fs::directory_iterator(fs::path(NOLI_SOURCE_DIR) / seeds)) {
     if (!file.is_regular_file()) continue;

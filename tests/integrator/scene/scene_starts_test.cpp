@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shipped scenes with contact begin with all features farther apart than the first layer, but for those that begin at
-// rest on each other.
+// Tests that shipped scenes with contact begin with all features farther apart than the first layer, except scenes
+// whose bodies begin at rest on each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Corners of a vertex, an edge or a face, and the box around them.
+/// The corners of a vertex, an edge or a face, and their box.
 template <int Dim>
 struct Feature {
   std::vector<VertexId> ids;
@@ -34,7 +34,7 @@ class Start {
     for (const auto& face : model.mesh.faces) add(faces_, {face[0], face[1], face[2]});
   }
 
-  /// Pairs that share no vertex, are not excluded, and are within their first layer.
+  /// The number of pairs that share no vertex, are not excluded, and are within their first layer.
   std::size_t near_pairs() const {
     if constexpr (Dim == 2) {
       return count<FeaturePair::vertex_edge>(vertices_, edges_);

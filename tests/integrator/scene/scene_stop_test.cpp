@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whatever makes a model out of a scene hears a stop.
+// Tests that every function that builds a model from a scene reacts to a stop.
 #include <gtest/gtest.h>
 
 #include <functional>

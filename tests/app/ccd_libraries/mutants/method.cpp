@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An exact method of continuous collision detection as a library (include/noli/ccd_plugin.h), and the faults that can
-// be planted in it (mutants.h). Rational arithmetic with the polynomials and algebraic times of oracle.
+// Implements an exact method of continuous collision detection as a library (include/noli/ccd_plugin.h), and the faults
+// that can be planted in it (mutants.h). It uses rational arithmetic with the oracle's polynomials and algebraic times.
 //
 // Notation
 //   x       points as polynomials of t with integer coefficients
-//   volume  six times the signed volume of the tetrahedron of the four points: features can meet at its roots only,
-//           or at any time if it is zero throughout
-//   n       normal: of the face, or of the two edges; where it is zero the face is degenerate or the edges are
-//           parallel, and what then meets are a vertex and an edge
+//   volume  six times the signed volume of the tetrahedron of the four points: features can only meet at its roots, or
+//           at any time if it is the zero polynomial
+//   n       normal of the face, or of the two edges; where it is zero, the face is degenerate or the edges are
+//           parallel, and only a vertex and an edge can meet
 #include <noli/ccd_plugin.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ using noli::mutants::Mutant;
 
 bool is(Mutant mutant) { return chosen == mutant; }
 
-// --- what is read ----------------------------------------------------------------------------------------------------
+// --- reading the input -----------------------------------------------------------------------------------------------
 
 using Points = std::array<Coordinates, 4>;
 
@@ -48,7 +48,7 @@ double as_read(double x) {
   return x;
 }
 
-/// Coordinates that are finite stay so.
+/// The difference, unless it overflows; so finite coordinates stay finite.
 double difference(double a, double b) { return std::isfinite(a - b) ? a - b : a; }
 
 Motion read(int kind, const double* x_t0, const double* x_t1) {
@@ -70,7 +70,7 @@ Motion read(int kind, const double* x_t0, const double* x_t1) {
   return motion;
 }
 
-// --- what is left out at once ----------------------------------------------------------------------------------------
+// --- early rejection -------------------------------------------------------------------------------------------------
 
 struct Range {
   double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
@@ -125,9 +125,9 @@ std::vector<Time> roots(const Polynomial& volume) {
   return times;
 }
 
-// --- whether they meet then ------------------------------------------------------------------------------------------
+// --- whether they meet at that time ----------------------------------------------------------------------------------
 
-/// The normal's square, and the weights of the four points times that.
+/// The square of the normal, and the weights of the points multiplied by it.
 struct Place {
   Polynomial square;
   std::vector<Polynomial> weights;
@@ -166,7 +166,7 @@ Clause inside(const Place& place, const Polynomial& volume) {
   return clause;
 }
 
-/// Where the normal is zero a vertex and an edge meet, if anything does.
+/// The condition of contact. Where the normal is zero, only a vertex and an edge can meet.
 Condition meeting(const Motion& motion, const Vectors& x, const Polynomial& volume) {
   const bool edges = motion.pair == Pair::edge_edge;
   Condition condition = {inside(edges ? place_in_edges(x) : place_in_face(x), volume)};
@@ -186,7 +186,7 @@ Condition meeting(const Motion& motion, const Vectors& x, const Polynomial& volu
   return condition;
 }
 
-/// All times at which a condition may begin to hold, and the ends of the step.
+/// All times at which the condition may begin to hold, and the ends of the step.
 std::vector<Time> critical_times(const Condition& condition) {
   std::vector<Time> times = Time::roots_of(Polynomial::linear(0, 1) * Polynomial::linear(1, 0));
   if (is(Mutant::coplanar_at_ends_only)) return times;
@@ -215,7 +215,7 @@ bool meet_at(const Condition& condition, const Time& t) {
   return holds_at(condition, t);
 }
 
-// --- what is told ----------------------------------------------------------------------------------------------------
+// --- the answer ------------------------------------------------------------------------------------------------------
 
 double told(const Time& t) {
   const double lower = t.lower(), next = std::nextafter(lower, 2);
