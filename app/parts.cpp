@@ -11,7 +11,6 @@
 #include "certify/process/this_program.h"
 #include "report/figures/png.h"
 #include "report/report_page.h"
-#include "trajectory/formats/arrays/npz.h"
 
 namespace noli::app {
 namespace {
@@ -30,7 +29,6 @@ std::string parts_text() {
   if (!report::has_report_page()) without.push_back("reports");
   if (!report::can_write_png()) without.push_back("pictures");
   if (!is_beside_this("noli_series")) without.push_back("series.h5");
-  if (!can_read_npz()) without.push_back(".npz");
   if (!has_audits()) without.push_back("fuzz and audit");
   return without.empty() ? "with all parts\n" : fmt::format("without {}\n", fmt::join(without, ", "));
 }

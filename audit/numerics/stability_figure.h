@@ -9,7 +9,7 @@
 
 namespace noli::audit {
 
-/// Each box has its value, and the energy error where there is one. Green: holds; yellow: fails closed, with the reason;
+/// Each box has its value, and the energy error if there is one. Green: holds; yellow: fails closed, with the reason;
 /// red: a finding.
 std::string stability_svg(const StabilityReport& report);
 

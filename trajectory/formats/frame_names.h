@@ -8,8 +8,8 @@
 //   cloth.pvd      the files of a series of ParaView
 //   @frames.txt    the lines of a file; paths are relative to its folder, and # begins a comment
 //
-// All but those of a series and a list are sorted by the numbers in their names (noli/frames.h, FrameOrder::natural). A name
-// that is there as it stands is a file, whatever letters it has.
+// All except those of a series and a list are sorted by the numbers in their names (noli/frames.h,
+// FrameOrder::natural). A name that is there as it stands is a file, whatever letters it has.
 #pragma once
 
 #include <filesystem>

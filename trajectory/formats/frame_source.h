@@ -34,10 +34,10 @@ class FrameSource {
   /// What messages call frame k: "cloth_3.ply", "motion.npz[3]".
   virtual std::string name(std::size_t k) const = 0;
 
-  /// Looks for faults in what holds frame k before any frame is read, where that is possible. Throws InputError, Stopped.
+  /// Looks for faults in what holds frame k before any frame is read, if that is possible. Throws InputError, Stopped.
   virtual void look_at(std::size_t k) = 0;
-  /// Frame k; nothing behind the last. Frames are asked for in their order, perhaps with gaps; again from an earlier one
-  /// on if can_begin_again().
+  /// Frame k; nothing behind the last. Frames are asked for in their order, perhaps with gaps; if can_begin_again(),
+  /// also from an earlier one on.
   /// Throws InputError, also when it is no longer what was looked at; Stopped.
   virtual std::optional<Frame> read(std::size_t k) = 0;
   virtual bool can_begin_again() const = 0;

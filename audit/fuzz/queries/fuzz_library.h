@@ -8,9 +8,9 @@
 // Notation
 //   block    as in audit/fuzz/fuzzing.h; block b is of generator b mod (number of those generators)
 //   finding  a query on which the library has a fault that counts (audit/ccd/library_answers.h)
-// Of the findings the simplest of each fault, kind of contact and generator is shrunk against the library and saved, at
-// most `max_findings` of them, missed crossings and ordinary queries before others; all are counted. What is shrunk keeps its fault and its kind of contact. Findings that
-// are equal when shrunk become one.
+// Of the findings the simplest of each fault, kind of contact and generator is shrunk against the library and saved. At
+// most `max_findings` are kept, missed crossings and ordinary queries before others; all are counted. What is shrunk
+// keeps its fault and its kind of contact. Findings that are equal when shrunk become one.
 //
 // What this does not do: ask anything twice, measure time, or look for leaks (audit/ccd/ccd_audit.h).
 #pragma once

@@ -51,9 +51,9 @@ ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<s
 
 void ArrayFrames::add_npz(const fs::path& file) {
   archive_ = std::make_unique<NpzFile>(file);
-  for (std::size_t i = 0; i < archive_->keys().size(); ++i) {
+  for (std::size_t i = 0; i < archive_->members().size(); ++i) {
     end_if_stopped();
-    const std::string& key = archive_->keys()[i];
+    const std::string& key = archive_->members()[i].key;
     StoredArray array{key, fmt::format("{}: {}", file.string(), on_one_line(key)), 0, {}, "", {}};
     const auto open = [this, i, name = array.name] {
       auto bytes = archive_->open(i);
@@ -63,7 +63,7 @@ void ArrayFrames::add_npz(const fs::path& file) {
     try {
       const auto bytes = archive_->open(i);
       const auto header = read_npy_header(*bytes, array.name);
-      array.fault = header ? fault_of(*header, archive_->size(i)) : "is empty";
+      array.fault = header ? fault_of(*header, archive_->members()[i].size) : "is empty";
       if (header) array.header = *header;
     } catch (const InputError& error) {
       array.fault = error.what();

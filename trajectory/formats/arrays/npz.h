@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The arrays of a `.npz` file: a ZIP archive of `.npy` members, stored or deflated, also of more than 4 GB. Read with
-// libzip, which checks the members' CRC.
+// minizip, which checks the members' CRC. (libzip would bring OpenSSL into every `noli`.)
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,33 +15,26 @@
 
 namespace noli {
 
-/// Whether this was built with libzip (NOLI_WITH_ZIP).
-bool can_read_npz();
+/// What the archive's directory says of an array.
+struct NpzMember {
+  std::string key;                     ///< its name without .npy
+  std::uint64_t size = 0, packed = 0;  ///< bytes of the array, and in the archive
+  std::uint64_t offset = 0, number = 0;
+};
 
 class NpzFile {
  public:
-  /// Throws InputError: no such file, no archive, built without libzip.
+  /// Throws InputError: no such file, no archive.
   explicit NpzFile(const std::filesystem::path& path);
-  ~NpzFile();
-  NpzFile(const NpzFile&) = delete;
-  NpzFile& operator=(const NpzFile&) = delete;
 
-  /// The names of the members that end in .npy, without that.
-  const std::vector<std::string>& keys() const { return keys_; }
+  const std::vector<NpzMember>& members() const { return members_; }
   /// The bytes of a member, as they were before they were deflated. Refuses what is longer than a gigabyte and was
-  /// deflated to less than a two hundredth of it. Valid as long as this is. Throws InputError.
-  std::unique_ptr<ByteStream> open(std::size_t key) const;
-  /// Its length, as the archive tells.
-  std::uint64_t size(std::size_t key) const;
+  /// deflated to less than a two hundredth of it. Throws InputError.
+  std::unique_ptr<ByteStream> open(std::size_t number) const;
 
  private:
-  class Member;
-  struct Archive;
-
   std::string name_;
-  std::unique_ptr<Archive> archive_;
-  std::vector<std::string> keys_;
-  std::vector<std::uint64_t> members_;  ///< of each key: its number in the archive
+  std::vector<NpzMember> members_;
 };
 
 }  // namespace noli

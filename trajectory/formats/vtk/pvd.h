@@ -8,8 +8,8 @@
 
 namespace noli {
 
-/// The files in the order of time, relative to the series' folder. Throws InputError: times that do not ascend, as those
-/// of several parts.
+/// The files in the order of time, relative to the series' folder. Throws InputError: times that do not ascend, for
+/// example because a time has several parts.
 std::vector<std::filesystem::path> files_of_pvd(const std::filesystem::path& series);
 
 }  // namespace noli
