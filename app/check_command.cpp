@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <noli/errors.h>
+#include "app/bodies.h"
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -60,6 +61,7 @@ struct CheckArguments {
   bool verified = false;
   FrameOrder order = FrameOrder::checked;
   FrameReading reading;
+  BodyWords bodies;
   std::string time_limit;
   OutputOptions results;
 };
@@ -158,21 +160,35 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
 }
 
 CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
-  if (checkers_read(request.trajectory)) return check_proof(request);
+  if (reading.bodies.empty() && checkers_read(request.trajectory)) return check_proof(request);
   auto verdict = check_frames(request, *open_frames(request.trajectory, reading));
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);
 }
 
-ExitCode run(const CheckArguments& arguments) {
+/// Sets the bodies; all their files.
+OrderedFrames ordered_bodies(CheckArguments& arguments) {
+  OrderedFrames ordered;
+  arguments.reading.bodies = bodies_of(arguments.bodies, arguments.order, ordered.notes);
+  ordered.frames = files_of(arguments.reading.bodies);
+  return ordered;
+}
+
+ExitCode run(CheckArguments& arguments) {
   begin_work(arguments.time_limit);
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
-  if (!folder && arguments.files.size() < 2) {
+  const bool joined = arguments.bodies.any();
+  if (joined && (folder || arguments.files.size() != 1))
+    throw UsageError("--body: expected one proof beside the bodies");
+  if (!folder && !joined && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
   const fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
-  const OrderedFrames ordered = order_frames(
-      folder ? arguments.files : named_frames({arguments.files.begin() + 1, arguments.files.end()}), arguments.order);
+  const OrderedFrames ordered =
+      joined
+          ? ordered_bodies(arguments)
+          : order_frames(folder ? arguments.files : named_frames({arguments.files.begin() + 1, arguments.files.end()}),
+                         arguments.order);
   const std::vector<fs::path>& trajectory = ordered.frames;
   if (!fs::exists(proof)) {
     const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
@@ -220,6 +236,7 @@ Command add_check(CLI::App& app) {
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);
+  add_body_options(*command, arguments->bodies, nullptr);
   add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

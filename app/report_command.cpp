@@ -211,10 +211,8 @@ class Report {
 
   /// As the result says, unless told otherwise.
   FrameReading reading() const {
-    FrameReading reading = arguments_.reading;
-    if (reading.keys.empty()) {
-      reading.keys = verified_->json.at("statement").value("keys", Json::array()).get<std::vector<std::string>>();
-    }
+    FrameReading reading = report::reading_of(verified_->json);
+    if (!arguments_.reading.keys.empty()) reading.keys = arguments_.reading.keys;
     return reading;
   }
 

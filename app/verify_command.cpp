@@ -11,6 +11,7 @@
 
 #include <noli/errors.h>
 #include <noli/verify.h>
+#include "app/bodies.h"
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/notes.h"
@@ -53,6 +54,7 @@ constexpr const char* verify_footer =
     "  noli verify 'cloth_*.obj'                     in quotes: cloth_2 before cloth_10\n"
     "  noli verify frames --json result.json         all frames in a folder\n"
     "  noli verify motion.npz --keys vertices,faces  arrays (frames, vertices, 3) and (faces, 3)\n"
+    "  noli verify --body shirt='shirt_*.obj' --body man='man_*.obj' --obstacle floor.obj\n"
     "  noli verify frames/%04d.ply                   or @list.txt, which names the files\n"
     "  noli verify a.ply b.ply --proof ab.noli       anybody can check it: noli check ab.noli a.ply b.ply\n"
     "  noli verify rest.ply --static                 does this mesh intersect itself?\n"
@@ -64,6 +66,7 @@ constexpr const char* verify_footer =
 
 struct VerifyArguments {
   VerifyRequest request;
+  BodyWords bodies;
   std::optional<std::filesystem::path> claim_out, junit;
   bool github = false;  ///< annotations for GitHub Actions on standard output
   std::string time_limit;
@@ -161,7 +164,7 @@ class MotionFile {
 
 /// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
 std::string where(const VerifyRequest& request, std::string_view work, double share) {
-  if (request.run || request.frames.size() < 3) return "";
+  if (request.run || request.frames.size() < 3 || !request.reading.bodies.empty()) return "";
   const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
   const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
   const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
@@ -181,13 +184,30 @@ VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
   }
 }
 
+/// The files that names on the command line stand for.
+void name_frames(VerifyArguments& arguments) {
+  VerifyRequest& request = arguments.request;
+  if (request.frames.empty() && !arguments.bodies.any()) {
+    throw UsageError("expected frames, bodies (--body) or the folder of a run");
+  }
+  if (!arguments.bodies.any()) {
+    request.frames = named_frames(request.frames);
+    return;
+  }
+  request.reading.bodies = bodies_of(arguments.bodies, request.order, request.order_notes);
+  request.frames = files_of(request.reading.bodies);
+}
+
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
-  request.frames = named_frames(request.frames);
+  name_frames(arguments);
   require_there(request.frames);
-  request.run = request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
-  if (!request.run) {
+  const bool joined = !request.reading.bodies.empty();
+  request.run = !joined && request.frames.size() == 1 && std::filesystem::is_directory(request.frames[0]);
+  if (joined) {
+    request.ordered = "each body's as given";
+  } else if (!request.run) {
     request.put_in_order();
   } else if (request.order != FrameOrder::checked || request.reading.polygons != PolygonRule::fan) {
     throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
@@ -233,11 +253,12 @@ ExitCode run(VerifyArguments& arguments) {
 /// What a first use needs.
 void add_options(CLI::App& command, VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  command
-      .add_option("frames", request.frames,
-                  "PLY or OBJ files in the order of time, a folder of them, a pattern; .npz or .npy; or one run")
-      ->required()
-      ->type_name("FRAMES|RUN");
+  CLI::Option* const frames =
+      command
+          .add_option("frames", request.frames,
+                      "PLY or OBJ files in the order of time, a folder of them, a pattern; .npz or .npy; or one run")
+          ->type_name("FRAMES|RUN");
+  add_body_options(command, arguments.bodies, frames);
   add_order_option(command, request.order);
   auto* const keep_going = command.add_flag("--keep-going", request.keep_going,
                                             "Go through all steps instead of stopping at the first with contacts");

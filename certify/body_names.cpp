@@ -20,7 +20,7 @@ BodyNames BodyNames::from_json(const Json& json) {
   if (!json.is_array()) return BodyNames();
   for (const Json& body : json) {
     if (!is_body(body)) return BodyNames();
-    bodies.push_back({body["name"], body["first"], body["vertices"]});
+    bodies.push_back({body["name"], body["first"], body["vertices"], std::nullopt});
   }
   return BodyNames(std::move(bodies));
 }
@@ -44,11 +44,22 @@ std::vector<std::string> BodyNames::bodies_of(std::span<const VertexId> vertices
   return names;
 }
 
-std::string BodyNames::vertex(VertexId v) const {
+const BodyNames::Body* BodyNames::body_of(VertexId v) const {
   for (const Body& body : bodies_) {
-    if (v >= body.first && v - body.first < body.vertices) return fmt::format("{}[{}]", body.name, v - body.first);
+    if (v >= body.first && v - body.first < body.vertices) return &body;
   }
-  return fmt::format("{}", v);
+  return nullptr;
+}
+
+std::string BodyNames::vertex(VertexId v) const {
+  const Body* const body = body_of(v);
+  return body != nullptr ? fmt::format("{}[{}]", body->name, v - body->first) : fmt::format("{}", v);
+}
+
+BodyNames names_of_frames(const std::vector<FrameBody>& bodies) {
+  std::vector<BodyNames::Body> names;
+  for (const FrameBody& body : bodies) names.push_back({body.name, body.first_vertex, body.vertices, body.first_face});
+  return BodyNames(std::move(names));
 }
 
 std::string BodyNames::feature(std::span<const VertexId> vertices) const {

@@ -3,10 +3,12 @@
 // Names vertices and features by their bodies: "vertex cloth[7] meets edge floor[0]-floor[1]".
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <noli/frames.h>
 #include <noli/mesh.h>
 #include <noli/query.h>
 #include "certify/json.h"
@@ -19,6 +21,7 @@ class BodyNames {
   struct Body {
     std::string name;
     std::uint64_t first = 0, vertices = 0;
+    std::optional<std::uint64_t> first_face = {};  ///< of a body whose files count faces from 0
   };
 
   /// No bodies: vertices are named by their numbers.
@@ -31,6 +34,8 @@ class BodyNames {
   /// Whether there are any bodies.
   bool known() const { return !bodies_.empty(); }
   const std::vector<Body>& bodies() const { return bodies_; }
+  /// The body that has a vertex; nullptr if there is none.
+  const Body* body_of(VertexId v) const;
   /// The bodies that have any of these vertices, in the order of bodies; vertices without a body are ignored.
   std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;
   /// A vertex by its body and its number there.
@@ -44,12 +49,15 @@ class BodyNames {
   std::vector<Body> bodies_;
 };
 
+/// The names for the bodies of frames.
+BodyNames names_of_frames(const std::vector<FrameBody>& bodies);
+
 /// The names for the bodies of a built scene: anything with name, first and vertices.
 template <class Bodies>
 BodyNames names_of(const Bodies& built) {
   std::vector<BodyNames::Body> bodies;
   bodies.reserve(built.size());
-  for (const auto& body : built) bodies.push_back({body.name, body.first, body.vertices});
+  for (const auto& body : built) bodies.push_back({body.name, body.first, body.vertices, std::nullopt});
   return BodyNames(std::move(bodies));
 }
 

@@ -39,6 +39,10 @@ Json contact_json(const ListedContact& listed) {
   if (const auto face = face_of(listed)) json["face"] = *face;
   json["cells"] = listed.cells;
   if (!listed.bodies[0].empty() || !listed.bodies[1].empty()) json["bodies"] = listed.bodies;
+  if (!listed.own[0].empty()) {
+    json["own"] = {{"features", listed.own}};
+    if (listed.own_face) json["own"]["face"] = *listed.own_face;
+  }
   json["kind"] = name(listed.kind);
   json["step"] = listed.step;
   json["time"] = listed.time;
@@ -96,7 +100,18 @@ std::string pair_in_short(const FeatureContact& contact) {
   return BodyNames().pair(contact.pair, contact.vertices, "×");
 }
 
+/// "edge shirt[3]-shirt[4]", "face avatar[17]": as the body counts.
+std::string own_name(const ListedContact& listed, std::size_t which) {
+  const std::string body = on_one_line(listed.bodies[which]);
+  if (which == 1 && listed.own_face) return fmt::format("face {}[{}]", body, *listed.own_face);
+  static constexpr const char* kinds[] = {"vertex", "edge", "face"};
+  std::string text;
+  for (const VertexId v : listed.own[which]) text += fmt::format("{}{}[{}]", text.empty() ? "" : "-", body, v);
+  return fmt::format("{} {}", kinds[listed.own[which].size() - 1], text);
+}
+
 std::string pair_in_short(const ListedContact& listed) {
+  if (!listed.own[0].empty() && !listed.own[1].empty()) return own_name(listed, 0) + " × " + own_name(listed, 1);
   const FeatureContact& contact = listed.contact;
   const std::size_t first = first_size(contact.pair);
   const std::span<const VertexId> all(contact.vertices.data(), point_count(contact.pair));

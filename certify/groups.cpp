@@ -18,7 +18,8 @@ namespace {
 
 class GroupsReader {
  public:
-  GroupsReader(const std::filesystem::path& file, std::size_t vertices) : file_(file.string()), vertices_(vertices) {}
+  GroupsReader(const std::filesystem::path& file, std::size_t vertices, const BodyNames& bodies)
+      : file_(file.string()), vertices_(vertices), bodies_(bodies) {}
 
   Groups read() {
     const Json json = integrator::parse_json(text(), file_);
@@ -26,11 +27,17 @@ class GroupsReader {
     for (const auto& [key, value] : json.items()) {
       require(key == "groups" || key == "ignore", "/" + key, "expected \"groups\" and \"ignore\" alone");
     }
-    require(json.contains("groups") && json["groups"].is_object(), "/groups", "expected an object: names and vertices");
+    const bool groups = json.contains("groups");
+    require(groups ? json["groups"].is_object() : bodies_.known(), "/groups", "expected an object: names and vertices");
+    require(!groups || !bodies_.known(), "/groups", "expected none: the bodies are the groups");
     require(json.contains("ignore") && json["ignore"].is_array(), "/ignore", "expected an array of pairs of groups");
     groups_.names = {""};
     groups_.exclusions.groups.assign(vertices_, 0);
-    for (const auto& [name, list] : json["groups"].items()) group(name, list);
+    if (groups) {
+      for (const auto& [name, list] : json["groups"].items()) group(name, list);
+    } else {
+      group_by_bodies();
+    }
     for (std::size_t i = 0; i < json["ignore"].size(); ++i) pair(json["ignore"][i], fmt::format("/ignore/{}", i));
     auto& pairs = groups_.exclusions.pairs;
     require(!pairs.empty(), "/ignore", "expected a pair of groups at least");
@@ -72,6 +79,15 @@ class GroupsReader {
     }
   }
 
+  void group_by_bodies() {
+    for (const BodyNames::Body& body : bodies_.bodies()) {
+      const auto number = static_cast<std::uint16_t>(groups_.names.size());
+      groups_.names.push_back(body.name);
+      const auto first = groups_.exclusions.groups.begin() + static_cast<std::ptrdiff_t>(body.first);
+      std::fill_n(first, body.vertices, number);
+    }
+  }
+
   std::size_t vertex(const Json& json, const std::string& place) const {
     require(json.is_number_unsigned(), place, "expected the number of a vertex");
     const auto v = json.get<std::uint64_t>();
@@ -95,13 +111,14 @@ class GroupsReader {
 
   std::string file_;
   std::size_t vertices_;
+  const BodyNames& bodies_;
   Groups groups_;
 };
 
 }  // namespace
 
-Groups read_groups(const std::filesystem::path& file, std::size_t vertices) {
-  return GroupsReader(file, vertices).read();
+Groups read_groups(const std::filesystem::path& file, std::size_t vertices, const BodyNames& bodies) {
+  return GroupsReader(file, vertices, bodies).read();
 }
 
 void require_whole_cells(const std::filesystem::path& file, const Groups& groups, const Mesh& mesh) {

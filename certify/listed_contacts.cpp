@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certificates/closest.h"
+#include "certify/contact_report.h"
 #include "trajectory/sample.h"
 
 namespace noli {
@@ -163,6 +164,12 @@ void name_owners(const Mesh& mesh, const BodyNames& names, std::span<ListedConta
     for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
       const auto bodies = names.bodies_of(feature(listed->contact, which));
       if (!bodies.empty()) listed->bodies[which] = bodies.front();
+      for (const VertexId v : feature(listed->contact, which)) {
+        const BodyNames::Body* const body = names.body_of(v);
+        if (body == nullptr || !body->first_face) continue;
+        listed->own[which].push_back(static_cast<VertexId>(v - body->first));
+        if (const auto face = face_of(*listed); face && which == 1) listed->own_face = *face - *body->first_face;
+      }
     }
   }
 }

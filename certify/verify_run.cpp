@@ -182,7 +182,7 @@ class SequenceVerification : private Verification {
 
   /// Reads the pairs of groups that are not compared.
   void leave_out(const std::filesystem::path& file, const Mesh& mesh) {
-    groups_ = read_groups(file, mesh.vertex_count);
+    groups_ = read_groups(file, mesh.vertex_count, names_of_frames(source_->bodies()));
     for (VertexId v = 0; classes_ && v < mesh.vertex_count; ++v) {
       const VertexId same = classes_->representative()[v];
       if (groups_->exclusions.groups[v] == groups_->exclusions.groups[same]) continue;
@@ -302,7 +302,8 @@ class SequenceVerification : private Verification {
     stopped();
     if (!sequence_.step_count()) count_steps();
     set_verdict(outcome_.steps.size() == outcome_.steps_total);
-    if (verifier_) list_contacts(verifier_->mesh(), BodyNames());
+    outcome_.bodies = source_->bodies();
+    if (verifier_) list_contacts(verifier_->mesh(), names_of_frames(outcome_.bodies));
     put_notes();
     outcome_.inputs = source_->facts();
   }
@@ -343,11 +344,7 @@ class SequenceVerification : private Verification {
 
 }  // namespace
 
-std::uint64_t VerifyOutcome::frame_count() const {
-  std::uint64_t count = 0;
-  for (const FrameFacts& facts : inputs) count += facts.frames;
-  return count;
-}
+std::uint64_t VerifyOutcome::frame_count() const { return noli::frame_count(inputs); }
 
 std::string VerifyOutcome::frame_name(std::size_t k) const { return noli::frame_name(inputs, k); }
 

@@ -28,6 +28,20 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "..
 
 }  // namespace
 
+FrameReading reading_of(const Json& result) {
+  const Json& statement = result.at("statement");
+  FrameReading reading;
+  reading.keys = statement.value("keys", Json::array()).get<std::vector<std::string>>();
+  for (const Json& body : statement.value("bodies", Json::array())) {
+    BodyFrames frames{body.at("name").get<std::string>(), {}, body.at("still").get<bool>()};
+    for (const Json& input : result.at("inputs")) {
+      if (member(input, "body") == frames.name) frames.frames.emplace_back(member(input, "file"));
+    }
+    reading.bodies.push_back(std::move(frames));
+  }
+  return reading;
+}
+
 ResultInputs::ResultInputs(const Json& result, const std::filesystem::path& path)
     : path_(path), inputs_(result.value("inputs", Json::array())) {
   const bool hashes = inputs_.is_array() && !inputs_.empty() && std::ranges::any_of(inputs_, [](const Json& input) {

@@ -12,6 +12,10 @@
 
 namespace noli::report {
 
+/// How the frames of a result were read: names of arrays, and bodies with their files. Throws nlohmann::json::exception
+/// where members are not as `noli verify` writes them.
+FrameReading reading_of(const Json& result);
+
 class ResultInputs {
  public:
   /// Throws InputError when the result does not name the hashes of what it is about, as those of older versions.

@@ -31,6 +31,19 @@ std::string claimed(const VerifyRequest& request) {
                      digits17(request.min_distance), which);
 }
 
+Json bodies_json(const std::vector<FrameBody>& bodies) {
+  Json list = Json::array();
+  for (const FrameBody& body : bodies) {
+    list.push_back({{"name", body.name},
+                    {"first_vertex", body.first_vertex},
+                    {"vertices", body.vertices},
+                    {"first_face", body.first_face},
+                    {"faces", body.faces},
+                    {"still", body.still}});
+  }
+  return list;
+}
+
 Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   Json list = Json::array();
   if (outcome.not_compared.any_held) list.push_back(held_text(outcome.not_compared));
@@ -72,6 +85,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
   };
   if (!request.run) {
     json["order"] = request.ordered;
+    if (!outcome.bodies.empty()) json["bodies"] = bodies_json(outcome.bodies);
     if (!request.reading.keys.empty()) json["keys"] = request.reading.keys;
     json["polygons"] = polygons_text(request.reading.polygons);
   }

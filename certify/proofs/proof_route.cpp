@@ -67,7 +67,9 @@ ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
   }
 }
 
-bool ProofRoute::frames_are_streamed() const { return !request_.run && !checkers_read(request_.frames); }
+bool ProofRoute::frames_are_streamed() const {
+  return !request_.run && (!request_.reading.bodies.empty() || !checkers_read(request_.frames));
+}
 
 bool ProofRoute::can_be_read_again() const {
   if (request_.lines_in_no_file) return false;

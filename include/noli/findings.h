@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ struct ListedContact {
   /// The cells that each feature is part of, in ascending order, at most `most_cells` of them.
   std::array<std::vector<std::uint32_t>, 2> cells;
   std::array<std::string, 2> bodies;  ///< of each feature, by name; empty where bodies have no names
+  /// The vertices of each feature as its body counts them, and the face; only of bodies that were joined (--body).
+  std::array<std::vector<VertexId>, 2> own = {};
+  std::optional<std::uint64_t> own_face = {};
 
   static constexpr std::size_t most_cells = 64;
 };

@@ -51,10 +51,25 @@ enum class PolygonRule {
   refuse  ///< a polygon is an error
 };
 
+/// A body with frames of its own.
+struct BodyFrames {
+  std::string name;
+  std::vector<std::filesystem::path> frames;  ///< in the order of time; one of a body that stands still
+  bool still = false;
+};
+
+/// Where a body is in the mesh of all.
+struct FrameBody {
+  std::string name;
+  std::uint64_t first_vertex = 0, vertices = 0, first_face = 0, faces = 0;
+  bool still = false;
+};
+
 /// How frames are read.
 struct FrameReading {
   PolygonRule polygons = PolygonRule::fan;
   std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
+  std::vector<BodyFrames> bodies = {};  ///< joined into one mesh, instead of frames of one; empty: there are none
 };
 
 /// What was read of a frame.
@@ -69,6 +84,7 @@ struct FrameFacts {
   std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k
   std::uint64_t decimals = 0;          ///< of such text
   std::uint64_t frames = 1;            ///< how many the file has
+  std::string body;                    ///< the body that it has frames of; empty: there is one mesh
 };
 
 }  // namespace noli

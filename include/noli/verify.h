@@ -178,6 +178,7 @@ struct VerifyOutcome {
   std::optional<std::string> not_checked;           ///< why it was not checked although the user did not forbid it
   double proof_seconds = 0;                         ///< wall clock of making the proof
   double check_seconds = 0;                         ///< wall clock of waiting for the checker
+  std::vector<FrameBody> bodies;                    ///< where they are in the mesh; empty if frames have no bodies
   std::vector<FrameFacts> inputs;                   ///< files that were read: frames in the order of time, or a run's
   std::vector<std::string> notes;                   ///< remarks, one line each
 

@@ -118,10 +118,6 @@ class ContactOf {
     return inputs.at(k).at("file").get<std::string>();
   }
 
-  std::vector<std::string> keys() const {
-    return result_.at("statement").value("keys", Json::array()).get<std::vector<std::string>>();
-  }
-
   Frame frame_of_run(const ResultInputs& about) const {
     const std::filesystem::path run = file(0).parent_path();
     about.require_run(run);
@@ -149,7 +145,7 @@ class ContactOf {
     if (!frames_) {
       std::vector<std::filesystem::path> files;
       for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
-      frames_ = open_frames(files, {.keys = keys()});
+      frames_ = open_frames(files, reading_of(result_));
     }
     frames_->look_at(k);
     std::optional<Frame> frame = frames_->read(k);

@@ -10,6 +10,7 @@
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/joined_frames.h"
 
 namespace noli {
 
@@ -18,6 +19,7 @@ bool holds_frames(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
+  if (!reading.bodies.empty()) return std::make_unique<JoinedFrames>(reading.bodies, reading);
   const auto dash = std::ranges::find(names, "-");
   if (dash != names.end()) {
     if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no file beside it");

@@ -44,6 +44,12 @@ void StoredFrames::require_unchanged() const {
   }
 }
 
+std::uint64_t frame_count(const std::vector<FrameFacts>& files) {
+  std::uint64_t count = 0;
+  for (const FrameFacts& facts : files) count += facts.body == files[0].body ? facts.frames : 0;
+  return count;
+}
+
 std::string frame_name(const std::vector<FrameFacts>& files, std::size_t k) {
   for (const FrameFacts& facts : files) {
     if (k < facts.frames) return facts.frames == 1 ? facts.file : fmt::format("{}[{}]", facts.file, k);

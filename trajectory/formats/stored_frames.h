@@ -41,7 +41,9 @@ class StoredFrames : public FrameSource {
   std::vector<State> opened_;
 };
 
-/// What frame k is called, where these files have so many frames each.
+/// How many frames the files have; of several bodies, those of the first.
+std::uint64_t frame_count(const std::vector<FrameFacts>& files);
+/// What frame k is called, if these files have so many frames each.
 std::string frame_name(const std::vector<FrameFacts>& files, std::size_t k);
 
 }  // namespace noli

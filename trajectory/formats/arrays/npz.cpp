@@ -60,7 +60,7 @@ class Member : public ByteStream {
 }  // namespace
 
 NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
-  require_regular_file(path);
+  open_regular_file(path);
   const Archive archive(name_);
   constexpr std::size_t longest_name = 1 << 12;
   std::string name(longest_name, 0);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <noli/errors.h>
+#include "app/help.h"
+#include "trajectory/formats/frame_names.h"
+
+namespace noli::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "shirt=shirt_*.obj"
+BodyFrames parsed(const std::string& word, const char* option) {
+  const std::size_t at = word.find('=');
+  if (at == 0 || at == std::string::npos || at + 1 == word.size()) {
+    throw UsageError(
+        fmt::format("{} {}: expected a name and its files, such as shirt=shirt_*.obj", option, on_one_line(word)));
+  }
+  return {word.substr(0, at), named_frames({word.substr(at + 1)}), false};
+}
+
+/// "floor.obj" is the body "floor".
+BodyFrames obstacle(const std::string& word) {
+  BodyFrames body;
+  if (word.find('=') != std::string::npos) {
+    body = parsed(word, "--obstacle");
+  } else {
+    body = {fs::path(word).stem().string(), named_frames({word}), false};
+  }
+  body.still = true;
+  return body;
+}
+
+}  // namespace
+
+void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames) {
+  CLI::Option* const body =
+      command.add_option("--body", words.bodies, "A body with files of its own, for each body: joined into one mesh")
+          ->allow_extra_args(false)
+          ->type_name("NAME=FRAMES")
+          ->group(group::question);
+  CLI::Option* const still =
+      command.add_option("--obstacle", words.obstacles, "A body that stands still, beside --body: one file")
+          ->allow_extra_args(false)
+          ->needs(body)
+          ->type_name("[NAME=]FRAME")
+          ->group(group::question);
+  if (frames == nullptr) return;
+  body->excludes(frames);
+  still->excludes(frames);
+}
+
+std::vector<BodyFrames> bodies_of(const BodyWords& words, FrameOrder order, std::vector<std::string>& notes) {
+  std::vector<BodyFrames> bodies;
+  for (const std::string& word : words.bodies) bodies.push_back(parsed(word, "--body"));
+  for (const std::string& word : words.obstacles) bodies.push_back(obstacle(word));
+  for (BodyFrames& body : bodies) {
+    OrderedFrames ordered = order_frames(std::move(body.frames), order);
+    body.frames = std::move(ordered.frames);
+    for (const std::string& note : ordered.notes) notes.push_back(body.name + ": " + note);
+  }
+  return bodies;
+}
+
+std::vector<fs::path> files_of(const std::vector<BodyFrames>& bodies) {
+  std::vector<fs::path> files;
+  for (const BodyFrames& body : bodies) files.insert(files.end(), body.frames.begin(), body.frames.end());
+  return files;
+}
+
+}  // namespace noli::app
