@@ -160,7 +160,10 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
 }
 
 CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
-  if (reading.bodies.empty() && checkers_read(request.trajectory)) return check_proof(request);
+  // What holds no frames by its name or first bytes is the checker's to refuse.
+  const auto& files = request.trajectory;
+  const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
+  if (reading.bodies.empty() && (unknown || checkers_read(files))) return check_proof(request);
   auto verdict = check_frames(request, *open_frames(request.trajectory, reading));
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);

@@ -32,6 +32,7 @@
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
+#include "trajectory/formats/frames.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -106,16 +107,6 @@ std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
   return files;
 }
 
-/// --merge-identical reads them twice.
-void require_files(const std::vector<std::filesystem::path>& frames) {
-  std::error_code error;
-  for (const auto& frame : frames) {
-    if (frame != "-" && !std::filesystem::exists(frame, error)) continue;
-    if (std::filesystem::is_regular_file(frame, error)) continue;
-    throw UsageError("--merge-identical: reads frames twice; expected a file, not " + frame.string());
-  }
-}
-
 /// Before anything else is said about a single one.
 void require_there(const std::vector<std::filesystem::path>& frames) {
   std::error_code error;
@@ -165,6 +156,7 @@ class MotionFile {
 /// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
 std::string where(const VerifyRequest& request, std::string_view work, double share) {
   if (request.run || request.frames.size() < 3 || !request.reading.bodies.empty()) return "";
+  if (!std::ranges::all_of(request.frames, is_frame_name)) return "";
   const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
   const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
   const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
@@ -230,7 +222,6 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
   inputs = {};  // paths of 10,000 frames are megabytes
-  if (request.merge_identical) require_files(request.frames);
   ProofRoute route(request);
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);

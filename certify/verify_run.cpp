@@ -40,7 +40,7 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
     if (path == "-") continue;
     std::error_code error;
     if (std::filesystem::is_directory(path, error) || ::access(path.c_str(), R_OK) != 0) {
-      throw InputError(path.string(), "", "cannot be opened; expected a PLY or OBJ file");
+      throw InputError(path.string(), "", "cannot be opened; expected a file of frames");
     }
   }
 }
@@ -52,6 +52,9 @@ class SequenceVerification : private Verification {
         source_(open_frames(request.frames, request.reading)),
         sequence_(*source_, motion_of(request)) {
     require_readable(request.frames);
+    if (request.merge_identical && !source_->can_begin_again()) {
+      throw UsageError("--merge-identical: reads frames twice; expected files, found a pipe or standard input");
+    }
     outcome_.steps_total = sequence_.step_count().value_or(0);
   }
 
@@ -71,7 +74,11 @@ class SequenceVerification : private Verification {
  private:
   void verify_steps() {
     if (request_.merge_identical) find_classes();
-    while (!stopped() && outcome_.complete && read_next(sequence_)) {
+    while (!stopped() && outcome_.complete) {
+      if (!read_next(sequence_)) {
+        ended_ = outcome_.complete && !stopped();
+        break;
+      }
       if (sequence_.step() == 0) begin();
       require_plane();
       note_rest();
@@ -86,7 +93,22 @@ class SequenceVerification : private Verification {
   void write_other_frames() {
     if (!request_.trajectory) return;
     while (!stopped() && read_next(sequence_)) write_frames();
-    if (trajectory_) trajectory_->finish();
+    if (!trajectory_ || stopped()) return;
+    trajectory_->finish();
+    trajectory_.reset();
+    std::filesystem::rename(part_of_trajectory(), *request_.trajectory);
+  }
+
+  /// Until all frames are in it, the file has another name, so that no checker takes a part for the whole.
+  std::filesystem::path part_of_trajectory() const { return request_.trajectory->string() + ".part"; }
+
+  void drop_part_of_trajectory() {
+    if (!trajectory_) return;
+    trajectory_.reset();
+    std::error_code error;
+    std::filesystem::remove(part_of_trajectory(), error);
+    outcome_.notes.push_back(
+        fmt::format("{} was not written: not all frames were read", request_.trajectory->string()));
   }
 
   /// Those that were read for this step.
@@ -99,8 +121,8 @@ class SequenceVerification : private Verification {
   void write_frames() {
     if (!request_.trajectory) return;
     if (!trajectory_) {
-      std::filesystem::remove(*request_.trajectory);
-      trajectory_.emplace(std::make_unique<FileSink>(*request_.trajectory, FileSink::Open::create), sequence_.mesh());
+      std::filesystem::remove(part_of_trajectory());
+      trajectory_.emplace(std::make_unique<FileSink>(part_of_trajectory(), FileSink::Open::create), sequence_.mesh());
     }
     append_frames(*trajectory_);
   }
@@ -300,11 +322,13 @@ class SequenceVerification : private Verification {
 
   void conclude() {
     stopped();
-    if (!sequence_.step_count()) count_steps();
-    set_verdict(outcome_.steps.size() == outcome_.steps_total);
+    const bool counted = sequence_.step_count().has_value();
+    if (!counted) count_steps();
+    set_verdict(counted ? outcome_.steps.size() == outcome_.steps_total : ended_);
     outcome_.bodies = source_->bodies();
     if (verifier_) list_contacts(verifier_->mesh(), names_of_frames(outcome_.bodies));
     put_notes();
+    drop_part_of_trajectory();
     outcome_.inputs = source_->facts();
   }
 
@@ -338,6 +362,7 @@ class SequenceVerification : private Verification {
   std::unique_ptr<StepProofs> proof_;
   std::optional<WindowVerifier> prover_;  ///< set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
+  bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;
   std::optional<FramesWriter> trajectory_, given_;  ///< --trajectory, and what the checker reads on its way
 };

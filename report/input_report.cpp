@@ -21,6 +21,7 @@ Json input_json(const FrameFacts& facts) {
   json["numbers"] = facts.looked_at ? Json(facts.numbers) : Json(nullptr);
   json["vertices"] = facts.looked_at ? Json(facts.vertices) : Json(nullptr);
   json["cells"] = or_null(facts.cells);
+  if (!facts.arrays.empty()) json["arrays"] = facts.arrays;
   if (!facts.body.empty()) json["body"] = facts.body;
   if (facts.frames != 1) json["frames"] = facts.frames;
   return json;

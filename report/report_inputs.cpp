@@ -31,7 +31,8 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "..
 FrameReading reading_of(const Json& result) {
   const Json& statement = result.at("statement");
   FrameReading reading;
-  reading.keys = statement.value("keys", Json::array()).get<std::vector<std::string>>();
+  const Json& inputs = result.at("inputs");
+  if (inputs.size() == 1) reading.keys = inputs[0].value("arrays", Json::array()).get<std::vector<std::string>>();
   for (const Json& body : statement.value("bodies", Json::array())) {
     BodyFrames frames{body.at("name").get<std::string>(), {}, body.at("still").get<bool>()};
     for (const Json& input : result.at("inputs")) {

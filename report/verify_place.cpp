@@ -24,6 +24,10 @@ class Place {
       case Verdict::contact: return contact();
       case Verdict::too_near: return near();
       case Verdict::undecided:
+        if (!request_.run && outcome_.steps.size() == outcome_.steps_total) {
+          return fmt::format("{} {} begun: nothing found so far ({})", outcome_.steps.size(),
+                             steps_word(request_, outcome_.steps.size()), why_incomplete(outcome_));
+        }
         return fmt::format("{} of {} {} begun: nothing found so far ({})", outcome_.steps.size(), outcome_.steps_total,
                            steps_word(request_, outcome_.steps_total), why_incomplete(outcome_));
     }
@@ -125,8 +129,8 @@ const char* why_incomplete(const VerifyOutcome& outcome) {
   if (outcome.no_proof) return "no proof was found";
   if (outcome.near) return "something is about as near as the least distance, but no witness was found";
   if (outcome.interrupted) return "interrupted";
-  if (outcome.steps_total == 0) return "no window was committed";
-  return outcome.out_of_time ? "time limit" : "first contact only";
+  if (outcome.out_of_time) return "time limit";
+  return outcome.steps_total == 0 ? "no window was committed" : "first contact only";
 }
 
 std::string step_name(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number) {

@@ -86,7 +86,6 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
   if (!request.run) {
     json["order"] = request.ordered;
     if (!outcome.bodies.empty()) json["bodies"] = bodies_json(outcome.bodies);
-    if (!request.reading.keys.empty()) json["keys"] = request.reading.keys;
     json["polygons"] = polygons_text(request.reading.polygons);
   }
   json["notes"] = outcome.notes;

@@ -173,11 +173,12 @@ class Words {
   }
 
   std::string files() const {
-    const std::string first = on_one_line(request_.frames.front().string());
-    const std::string last = on_one_line(request_.frames.back().string());
-    if (request_.run || outcome_.frame_count() < 2) return first;
-    if (request_.frames.size() == 1) return fmt::format("{} frames in {}", outcome_.frame_count(), first);
-    return fmt::format("{} frames, {} to {}", outcome_.frame_count(), first, last);
+    const std::string file = on_one_line(request_.frames.front().string());
+    const std::uint64_t count = outcome_.frame_count();
+    if (request_.run || count < 2) return file;
+    if (request_.frames.size() == 1) return fmt::format("{} frames in {}", count, file);
+    return fmt::format("{} frames, {} to {}", count, on_one_line(outcome_.frame_name(0)),
+                       on_one_line(outcome_.frame_name(static_cast<std::size_t>(count - 1))));
   }
 
   void ending() {

@@ -39,6 +39,13 @@ InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, path.s
 InputFile::InputFile(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
   // O_NONBLOCK: to open a named pipe would wait for its writer, and hear no stop.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  look();
+}
+
+InputFile::InputFile(int descriptor, std::string name) : name_(std::move(name)), descriptor_(descriptor) { look(); }
+
+/// Whether it may be read, and how long it is.
+void InputFile::look() {
   struct stat status = {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     const int error = errno;

@@ -20,6 +20,8 @@ class InputFile {
   explicit InputFile(const std::filesystem::path& path);
   /// The same, called so in errors.
   InputFile(const std::filesystem::path& path, std::string name);
+  /// Reads a descriptor, which is closed with this.
+  InputFile(int descriptor, std::string name);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -30,6 +32,7 @@ class InputFile {
   std::string read_to_end();
 
  private:
+  void look();
   void wait() const;
 
   std::string name_;

@@ -2,6 +2,7 @@
 #include "certify/proofs/check_frames.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <memory>
 #include <thread>
@@ -28,32 +29,59 @@ void write_all(FrameSource& frames, std::unique_ptr<Sink> sink, const Before& be
   }
 }
 
+/// Gives frames to a checker that reads a pipe, in a thread of its own.
+class Giving {
+ public:
+  Giving(FrameSource& frames, TrajectoryPipe& pipe) : pipe_(pipe), thread_([this, &frames] { give(frames); }) {}
+  ~Giving() { join(); }
+  Giving(const Giving&) = delete;
+  Giving& operator=(const Giving&) = delete;
+
+  /// Becomes true if nobody opens the checker's pipe any more, which then would wait without an end.
+  const std::atomic<bool>* failed() const { return &failed_; }
+  /// The checker may have ended without reading all frames, or any. What went wrong with them, if anything did.
+  std::exception_ptr join() {
+    pipe_.abandon();
+    if (thread_.joinable()) thread_.join();
+    return fault_;
+  }
+
+ private:
+  /// If a frame cannot be read, the motion ends before it: that may be all that is asked of the proof.
+  void give(FrameSource& frames) {
+    try {
+      write_all(frames, pipe_.sink(), [this] {
+        pipe_.drained();
+        return !pipe_.is_over();
+      });
+    } catch (...) {
+      fault_ = std::current_exception();
+    }
+    try {
+      pipe_.close();
+    } catch (...) {
+      if (!fault_) fault_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  TrajectoryPipe& pipe_;
+  std::exception_ptr fault_;  ///< written by the thread, read when it has ended
+  std::atomic<bool> failed_ = false;
+  std::thread thread_;
+};
+
 std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frames) {
   TrajectoryPipe pipe(std::nullopt);
   request.trajectory = {pipe.path()};
+  Giving giving(frames, pipe);
+  request.stop = giving.failed();
   CheckerProcess checker(request);
-  std::exception_ptr fault;
-  std::thread giving([&] {
-    try {
-      write_all(frames, pipe.sink(), [&] {
-        pipe.drained();
-        return !pipe.is_over();
-      });
-      pipe.close();
-    } catch (...) {
-      fault = std::current_exception();
-      pipe.abandon();
-    }
-  });
-  std::optional<CheckerVerdict> verdict;
-  try {
-    verdict = checker.finish();
-  } catch (...) {
-    if (!fault) fault = std::current_exception();
-  }
-  pipe.abandon();  // the checker may have ended without reading all, or any of it
-  giving.join();
-  if (fault) std::rethrow_exception(fault);
+  const std::optional<CheckerVerdict> verdict = checker.finish();
+  const std::exception_ptr fault = giving.join();
+  // Frames behind the last step that was asked for do not matter; of others the checker saw a part.
+  const bool settled = verdict && verdict->code != 3;
+  if (fault && !settled) std::rethrow_exception(fault);
   return verdict;
 }
 

@@ -100,9 +100,8 @@ void ProofRoute::check(VerifyOutcome& outcome) {
   }
   require_claim(outcome.claim, verdict->words, refuted);
   if (frames_are_streamed()) {
-    outcome.notes.emplace_back(
-        "the checker read the frames as noli passed them on; --trajectory OUT writes them to a file that checkers "
-        "read");
+    const char* const advice = request_.trajectory ? "" : "; --trajectory OUT writes them to a file that checkers read";
+    outcome.notes.push_back(fmt::format("the checker read the frames as noli passed them on{}", advice));
   }
   outcome.checker = version_of(Checker::plain);
   if (!refuted) outcome.verdict = Verdict::proved;
@@ -142,7 +141,7 @@ std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
 std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {
   if (!can_check_ && request_.lines_in_no_file)
     return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
-  if (!can_check_) return "what is verified is no file that could be read twice";
+  if (!can_check_) return "standard input and pipes cannot be read a second time";
   if (outcome.no_proof) return "no proof was found";
   if (outcome.open_window && !pipe_)
     return "the run ends within a window; resume it first (noli simulate ... --resume)";

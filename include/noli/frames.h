@@ -84,6 +84,7 @@ struct FrameFacts {
   std::optional<int> rounded_at;       ///< k: text that may have been rounded to multiples of 10^k
   std::uint64_t decimals = 0;          ///< of such text
   std::uint64_t frames = 1;            ///< how many the file has
+  std::vector<std::string> arrays;     ///< those of a .npz file that are read, the positions first
   std::string body;                    ///< the body that it has frames of; empty: there is one mesh
 };
 

@@ -118,12 +118,12 @@ class Check {
         cell.v[i] = claim_.same[cell.v[i]];
       }
     }
-    tidy(claim_.cells, scene.vertices);
+    tidy(claim_.cells);
     claim_.listed = claim_.cells.size();
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (!used[v]) claim_.cells.push_back({{claim_.same[v]}, 1});
     }
-    tidy(claim_.cells, scene.vertices);
+    tidy(claim_.cells);
   }
 
   Sha256::Digest cells_hash() const {

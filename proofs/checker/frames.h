@@ -34,18 +34,18 @@ struct Frame {
 };
 
 /// Faces, then loose edges, then loose points, each in their order, without those that are redundant.
-inline void tidy(std::vector<Cell>& cells, std::size_t vertices) {
+inline void tidy(std::vector<Cell>& cells) {
   std::ranges::stable_sort(cells, std::greater<>{}, &Cell::size);
   if (cells.empty() || cells.back().size == 3) return;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  std::vector<bool> used(vertices, false);
+  std::set<std::uint32_t> used;
   std::erase_if(cells, [&](const Cell& c) {
-    bool redundant = c.size == 1 && used[c.v[0]];
+    bool redundant = c.size == 1 && used.contains(c.v[0]);
     for (std::size_t i = 0; c.size > 1 && i < c.size; ++i) {
       const bool known = !edges.insert(std::minmax({c.v[i], c.v[(i + 1) % c.size]})).second;
       redundant = redundant || (c.size == 2 && i == 0 && known);
     }
-    for (const std::uint32_t v : c) used[v] = true;
+    used.insert(c.begin(), c.end());
     return redundant;
   });
 }
@@ -276,7 +276,7 @@ inline Frame read_frame(const std::string& path) {
   Reader text(Input(path).read(std::numeric_limits<std::uint64_t>::max()), path);
   text.require(text.left() > 0, "expected a file that is not empty");
   Frame frame = ending(path) == ".ply" ? PlyReader(std::move(text)).read() : read_obj(std::move(text));
-  tidy(frame.cells, frame.x.size());
+  tidy(frame.cells);
   return frame;
 }
 

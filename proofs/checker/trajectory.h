@@ -118,11 +118,9 @@ class FrameReader {
   explicit FrameReader(std::vector<std::string> paths) : paths_(std::move(paths)) {
     if (paths_.size() != 1 || is_frame(paths_[0])) return;
     file_.emplace(paths_[0], "FRMS");
-    std::uint64_t vertices = 0;
-    read_mesh(file_->expect("MESH"), vertices, mesh_.cells);
+    read_mesh(file_->expect("MESH"), vertices_, mesh_.cells);
     file_->expect_commit();
-    tidy(mesh_.cells, vertices);
-    mesh_.x.resize(vertices);
+    tidy(mesh_.cells);
   }
 
   /// The next frame, if there is one. Its mesh is that of the first.
@@ -133,8 +131,11 @@ class FrameReader {
   std::optional<Frame> of_paths() {
     if (read_ == paths_.size()) return std::nullopt;
     Frame frame = read_frame(paths_[read_]);
-    if (read_ == 0) mesh_ = {std::vector<Position>(frame.x.size()), frame.cells};
-    const bool same = frame.x.size() == mesh_.x.size() && frame.cells == mesh_.cells;
+    if (read_ == 0) {
+      vertices_ = frame.x.size();
+      mesh_.cells = frame.cells;
+    }
+    const bool same = frame.x.size() == vertices_ && frame.cells == mesh_.cells;
     require(same, paths_[read_], "has another mesh than the frame before");
     ++read_;
     return frame;
@@ -144,7 +145,9 @@ class FrameReader {
     if (file_->ended()) return std::nullopt;
     Reader c = file_->as("FRAM", std::move(block));
     c.require(c.f64() == static_cast<double>(read_), "a frame has the wrong number");
+    c.need(vertices_, sizeof(Position));
     Frame frame = mesh_;
+    frame.x.resize(vertices_);
     for (Position& x : frame.x) x = {c.f64(), c.f64(), c.f64()};
     c.end();
     file_->expect_commit();
@@ -154,7 +157,8 @@ class FrameReader {
 
   std::vector<std::string> paths_;
   std::optional<BlockFile> file_;
-  Frame mesh_;  ///< positions are not used
+  std::uint64_t vertices_ = 0;
+  Frame mesh_;  ///< has cells alone
   std::size_t read_ = 0;
 };
 

@@ -115,7 +115,10 @@ class ContactOf {
   std::filesystem::path file(std::size_t k) const {
     const Json& inputs = result_.at("inputs");
     if (k >= inputs.size()) refuse("names no input");
-    return inputs.at(k).at("file").get<std::string>();
+    const auto name = inputs.at(k).at("file").get<std::string>();
+    if (name == "-")
+      refuse("is about standard input, which cannot be read again; verify with --trajectory, and that file");
+    return name;
   }
 
   Frame frame_of_run(const ResultInputs& about) const {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 
 #include "tests/app/audits/libraries.h"
 #include "tests/app/process.h"
@@ -143,6 +144,84 @@ TEST_P(FrameSources, ShowTheFirstContact) {
     EXPECT_EQ(shown.exit_code, 0) << name << shown.err;
     std::filesystem::remove(folder.path("hits.vtu"));
   }
+}
+
+/// What goes wrong with frames that Noli passes on to a checker.
+class StreamedFrames : public testing::Test {
+ protected:
+  static NumpyArray still(std::size_t frames, double z = 1) {
+    NumpyArray array{"<f8", {frames, vertex_count, 3}, {}};
+    for (std::size_t k = 0; k < frames; ++k) {
+      for (std::size_t v = 0; v < vertex_count; ++v) {
+        const Position x = position(0, v, false);
+        array.numbers.insert(array.numbers.end(), {x[0], x[1], x[2] * z});
+      }
+    }
+    return array;
+  }
+  std::string npz(const std::string& name, const NumpyArray& positions) const {
+    return folder.write(name, test::stored_zip({{"x.npy", positions.bytes()}, {"f.npy", faces.bytes()}}));
+  }
+  std::string command(const std::string& words) const { return std::string(NOLI_COMMAND) + " " + words; }
+
+  NumpyArray faces = {"<i8", {2, 3}, {0, 1, 2, 3, 4, 5}};
+  Folder folder;
+};
+
+/// The checker waits for a motion that nobody gives it.
+TEST_F(StreamedFrames, ThatCannotBeReadEndTheCheck) {
+  const std::string good = npz("good.npz", still(3)), proof = folder.path("p.noli");
+  const std::string first = folder.path("first.noli");
+  ASSERT_EQ(run_noli({"verify", good, "--proof", proof}).exit_code, 0);
+  ASSERT_EQ(run_noli({"verify", npz("two.npz", still(2)), "--proof", first}).exit_code, 0);
+  for (const std::size_t bad : {0U, 1U, 2U}) {
+    NumpyArray positions = still(3);
+    positions.numbers[bad * 3 * vertex_count + 1] = std::numeric_limits<double>::quiet_NaN();
+    const Process process = run_noli({"check", proof, npz("bad.npz", positions), "--time-limit", "20s"});
+    EXPECT_EQ(process.exit_code, 3) << bad << process.out;
+    EXPECT_NE(process.err.find(fmt::format("bad.npz[{}]: vertex 0: expected a finite coordinate", bad)),
+              std::string::npos)
+        << process.err;
+    const Process one = run_noli({"check", first, folder.path("bad.npz"), "--require", "steps=1"});
+    EXPECT_EQ(one.exit_code, bad == 2 ? 0 : 3)
+        << "frames behind the proof's steps do not matter: " << one.out << one.err;
+  }
+  EXPECT_EQ(run_noli({"check", proof, npz("more.npz", still(4))}).exit_code, 3);
+  EXPECT_EQ(run_noli({"check", folder.write("no.noli", "no proof"), good}).exit_code, 3);
+}
+
+/// Nobody knows whether another frame would have come.
+TEST_F(StreamedFrames, OfAStreamThatIsStoppedAreUndecided) {
+  std::string text = faces.bytes();
+  for (int k = 0; k < 3; ++k) {
+    NumpyArray one = still(1);
+    one.shape = {vertex_count, 3};
+    text += one.bytes();
+  }
+  const std::string file = folder.write("s.bin", text);
+  for (const std::string more : {"", " --no-check", " --static"}) {
+    const auto [out, code] =
+        shell("(cat " + file + "; sleep 3) | " + command("verify - --time-limit 1s" + more) + " 2>&1");
+    EXPECT_EQ(code, 2) << more << out;
+    EXPECT_NE(out.find("UNDECIDED"), std::string::npos) << out;
+    EXPECT_EQ(shell("cat " + file + " | " + command("verify -" + more) + " 2>&1").second, 0) << more;
+  }
+  const std::string out = folder.path("out.frames");
+  shell("(cat " + file + "; sleep 3) | " + command("verify - --time-limit 1s --trajectory " + out) + " 2>&1");
+  EXPECT_FALSE(std::filesystem::exists(out)) << "a part of the motion is no motion";
+  EXPECT_FALSE(std::filesystem::exists(out + ".part"));
+}
+
+TEST_F(StreamedFrames, GoWithTheOptionsThatFilesHave) {
+  const std::string file = npz("m.npz", still(3));
+  for (const Words& more : {Words{"--static"}, {"--merge-identical"}, {"--min-distance", "0.5"}, {"--strict"}}) {
+    const Process process = run_noli(Words{"verify", file} + more);
+    EXPECT_EQ(process.exit_code, 0) << more[0] << process.out << process.err;
+    EXPECT_NE(process.out.find("PROVED"), std::string::npos) << more[0] << process.out;
+  }
+  const Process near = run_noli({"verify", file, "--min-distance", "5"});
+  EXPECT_EQ(near.exit_code, 1) << near.out;
+  EXPECT_EQ(shell(command("verify - --merge-identical </dev/null 2>&1")).second, 3);
 }
 
 /// What `noli export` writes of a run: files of ParaView, its series, and PLY.

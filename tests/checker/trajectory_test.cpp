@@ -278,6 +278,8 @@ TEST(Frames, OfABlockFile) {
   EXPECT_REJECTED(of(groups), "expected a block FRAM");
   groups[2] = {{"FRAM", raw(1.0) + raw(std::numeric_limits<double>::infinity())}};
   EXPECT_REJECTED(of(groups), "finite");
+  groups[0] = {{"MESH", raw(std::uint64_t{1} << 32) + raw(std::array<std::uint64_t, 3>{})}};
+  EXPECT_REJECTED(of(groups), "more is announced here than is left");
   groups[0] = {{"MESH", raw(std::uint64_t{0}) + raw(std::array<std::uint64_t, 3>{})}};
   EXPECT_REJECTED(of(groups), "impossible number");
 }

@@ -186,7 +186,8 @@ TEST_F(Arrays, AreRefusedWithTheirPlace) {
   EXPECT_EQ(with(motion(), {"<i8", {1, 3}, {0, -1, 2}}), file + ": f: cell 0 has vertex -1; expected 0 to 5");
   bad = motion();
   bad.numbers.pop_back();
-  EXPECT_NE(with(bad, faces).find("not readable"), std::string::npos) << "shorter than its shape says";
+  EXPECT_NE(with(bad, faces).find("m.npz: x: is float64 (3, 6, 3), which takes"), std::string::npos)
+      << with(bad, faces);
   EXPECT_NE(refusal({npy("x.npy", bad)}).find("which takes 432 bytes more"), 0U);
   EXPECT_NE(with({"<f8", {0, 6, 3}, {}}, faces).find("expected at least one frame"), std::string::npos);
   EXPECT_NE(refusal({npy("a.npy", frame(0)), npy("b.npy", {"<f8", {1, 3}, {0, 0, 0}})})
@@ -195,6 +196,30 @@ TEST_F(Arrays, AreRefusedWithTheirPlace) {
   EXPECT_NE(refusal({npy("a.npy", frame(0)), folder.write("b.ply", "ply")}).find("is no .npy file"), std::string::npos);
   EXPECT_NE(refusal({folder.write("t.npz", "no archive")}).find("cannot be read as an archive"), std::string::npos);
   EXPECT_NE(refusal({folder / "missing.npz"}).find("No such file"), std::string::npos);
+}
+
+/// What is not read may be the motion that is meant.
+TEST_F(Arrays, OfOtherTypesAreNotOverlooked) {
+  NumpyArray half = motion();
+  std::string text = half.bytes();
+  text.replace(text.find("<f8"), 3, "<f2");
+  const auto file =
+      folder.write("h.npz", stored_zip({{"x.npy", text}, {"v.npy", motion().bytes()}, {"f.npy", faces.bytes()}}));
+  EXPECT_NE(refusal({file}).find("several arrays may be the positions"), std::string::npos);
+  const auto alone = folder.write("a.npz", stored_zip({{"x.npy", text}, {"f.npy", faces.bytes()}}));
+  EXPECT_EQ(refusal({alone}), alone.string() + ": x: is an array of type '<f2'; expected float32, float64 or integers");
+  const auto both = npz({{"x", motion()}, {"f", faces}, {"e", {"<i4", {1, 2}, {0, 3}}}});
+  const auto source = open_frames({both});
+  EXPECT_EQ(source->facts()[0].arrays, (std::vector<std::string>{"x", "f"}));
+  ASSERT_EQ(source->notes().size(), 1U);
+  EXPECT_NE(source->notes()[0].find("e int32 (1, 2)"), std::string::npos) << "loose edges that are left out";
+}
+
+TEST_F(Arrays, BehindADamagedEntryOfTheDirectoryAreMissed) {
+  const auto file = npz({{"x", motion()}, {"f", faces}});
+  std::string text = test::read_text(file);
+  text[text.rfind("PK\1\2")] = 'Q';
+  EXPECT_NE(refusal({folder.write("d.npz", text)}).find("damaged directory"), std::string::npos);
 }
 
 TEST_F(Arrays, WithAFlippedBitAreRefused) {

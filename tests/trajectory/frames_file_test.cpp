@@ -100,6 +100,15 @@ TEST_F(FramesFile, EachFlippedBitIsNoticed) {
   }
 }
 
+TEST_F(FramesFile, LeavesOutRedundantCells) {
+  Mesh more = two_cells;
+  more.edges.insert(more.edges.end(), {{1, 0}, {3, 2}});
+  FramesWriter writer(std::make_unique<FileSink>(path(), FileSink::Open::create), more);
+  writer.append(frame(0));
+  writer.finish();
+  EXPECT_EQ(FramesReader(path()).mesh(), two_cells);
+}
+
 TEST_F(FramesFile, TakesFramesOfItsMeshAlone) {
   FramesWriter writer(std::make_unique<FileSink>(path(), FileSink::Open::create), two_cells);
   EXPECT_THROW(writer.append(Positions(3)), std::logic_error);

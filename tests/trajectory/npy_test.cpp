@@ -37,7 +37,9 @@ template <class Number>
 std::vector<Number> read(const std::string& bytes, std::string* type = nullptr) {
   TextBytes stream(bytes);
   const NpyHeader header = read_npy_header(stream, "a").value();
-  EXPECT_EQ(header.bytes(), bytes.size());
+  if (header.refusal.empty()) {
+    EXPECT_EQ(header.bytes(), bytes.size());
+  }
   if (type != nullptr) *type = header.text();
   if constexpr (std::is_same_v<Number, double>) return reals_of(stream, header, "a");
   if constexpr (!std::is_same_v<Number, double>) return integers_of(stream, header, "a");

@@ -130,7 +130,7 @@ TEST(Vtk, BelievesNoLength) {
   EXPECT_EQ(with("//////////8=", "header_type=\"UInt64\""),
             where + "announces 18446744073709551615 bytes, and has at most 0");
   EXPECT_EQ(with("CAAAAAMA"), where + "announces 8 bytes, and has at most 2");
-  EXPECT_EQ(with("CAAAA*MA"), where + "has a letter that is none of base64");
+  EXPECT_EQ(with("CAAAA*MA"), where + "has a character that is not base64");
   EXPECT_EQ(with("CAAAAAM"), where + "announces 4 bytes, and has at most 3");
   const std::string compressed = "compressor=\"vtkZLibDataCompressor\"";
   EXPECT_EQ(with("////fwAAAAAAAAAA", compressed), where + "announces 2147483647 compressed blocks");

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include <noli/errors.h>
+#include "trajectory/blocks/bytes.h"
 #include "trajectory/blocks/run_payload.h"
+#include "trajectory/cells.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -69,8 +72,17 @@ FramesWriter::FramesWriter(std::unique_ptr<Sink> sink, const Mesh& mesh)
 
 void FramesWriter::append(std::span<const Position> positions) {
   if (positions.size() != vertices_) throw std::logic_error("a frame has another number of vertices than its mesh");
-  RunFrame frame{static_cast<double>(frames_), {positions.begin(), positions.end()}};
-  blocks_.append(run_kind::frame, run_block::encode_frame(3, frame));
+  constexpr std::size_t part = 4096;  // positions
+  blocks_.append(run_kind::frame, sizeof(double) + positions.size_bytes(), [&](const ByteConsumer& consumer) {
+    std::string bytes;
+    put(bytes, static_cast<double>(frames_));
+    consumer(bytes);
+    for (std::size_t at = 0; at < positions.size(); at += part) {
+      bytes.clear();
+      put_all(bytes, coordinates(positions.subspan(at, std::min(part, positions.size() - at))));
+      consumer(bytes);
+    }
+  });
   blocks_.commit();
   ++frames_;
 }
@@ -81,6 +93,7 @@ FramesReader::FramesReader(const std::filesystem::path& path) : blocks_(path, fr
   const auto mesh = read(run_kind::mesh);
   if (!mesh) throw InputError(blocks_.name(), "", "ends before its mesh");
   mesh_ = run_block::decode_mesh({blocks_.name(), *mesh});
+  drop_redundant_cells(mesh_);  // as all readers do
   read_commit();
   const std::uint64_t groups = blocks_.look_at_commits().count;
   count_ = groups > 0 ? groups - 1 : 0;

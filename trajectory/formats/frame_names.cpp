@@ -36,7 +36,8 @@ Paths files_of(const fs::path& folder, const fs::path& given, const Wanted& want
   for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end; at.increment(error)) {
     end_if_stopped();
     const fs::path name = at->path().filename();
-    if (wanted(name) && !fs::is_directory(at->path())) files.push_back(folder / name);
+    std::error_code ignored;
+    if (wanted(name) && !fs::is_directory(at->path(), ignored)) files.push_back(folder / name);
   }
   if (error) throw InputError(given.string(), "", "cannot be listed: " + error.message());
   return files;

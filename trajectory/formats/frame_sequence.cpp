@@ -36,9 +36,11 @@ bool FrameSequence::next() {
 }
 
 bool FrameSequence::read_next_frame() {
+  // Room for the next one first, so that no third frame is in memory.
+  x_t0_ = motion_ == Motion::linear ? std::exchange(x_t1_, {}) : std::vector<Position>();
+  if (motion_ == Motion::constant) x_t1_ = {};
   std::optional<Frame> frame = source_.read(frames_read_);
   if (!frame) return false;
-  x_t0_ = motion_ == Motion::linear ? std::exchange(x_t1_, {}) : std::vector<Position>();
   if (frames_read_ == 0) {
     mesh_ = std::move(frame->mesh);
   } else {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trajectory/formats/open_frames.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 
 #include <noli/errors.h>
@@ -23,7 +25,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   const auto dash = std::ranges::find(names, "-");
   if (dash != names.end()) {
     if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no file beside it");
-    return std::make_unique<StreamFrames>(std::make_unique<FileBytes>("/dev/stdin", "standard input"));
+    return std::make_unique<StreamFrames>(std::make_unique<FileBytes>(::dup(STDIN_FILENO), "standard input"));
   }
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);

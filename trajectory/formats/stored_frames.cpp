@@ -20,28 +20,29 @@ StoredFrames::StoredFrames(const std::vector<std::filesystem::path>& files) {
 StoredFrames::State StoredFrames::state_of(const std::string& file) {
   struct stat status = {};
   if (::stat(file.c_str(), &status) != 0) return {};
-  return {static_cast<std::uintmax_t>(status.st_size), status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  return {static_cast<std::uintmax_t>(status.st_size), status.st_dev, status.st_ino, status.st_ctim.tv_sec,
+          status.st_ctim.tv_nsec};
 }
 
 std::string StoredFrames::name(std::size_t k) const { return frame_name(facts_, k); }
 
-void StoredFrames::look_at(std::size_t /*k*/) {
-  for (FrameFacts& facts : facts_) {
-    if (facts.looked_at) continue;
+void StoredFrames::look_at(std::size_t k) {
+  for (std::size_t i = 0, first = 0; i < facts_.size(); first += facts_[i].frames, ++i) {
+    FrameFacts& facts = facts_[i];
+    const bool wanted = facts.frames == 0 ? k == 0 : k >= first && k < first + facts.frames;
+    if (!wanted || facts.looked_at) continue;
     const FrameFacts found = file_facts(facts.file, [] { return stop_asked().has_value(); });
     facts.bytes = found.bytes;
     facts.sha256 = found.sha256;
     facts.looked_at = true;
+    require_unchanged(i);
   }
-  require_unchanged();
 }
 
-void StoredFrames::require_unchanged() const {
-  for (std::size_t i = 0; i < facts_.size(); ++i) {
-    if (state_of(facts_[i].file) == opened_[i]) continue;
-    throw InputError(facts_[i].file, "",
-                     "has changed since it was opened; verify the frames again once the file is complete");
-  }
+void StoredFrames::require_unchanged(std::size_t file) const {
+  if (state_of(facts_[file].file) == opened_[file]) return;
+  throw InputError(facts_[file].file, "",
+                   "has changed since it was opened; verify the frames again once the file is complete");
 }
 
 std::uint64_t frame_count(const std::vector<FrameFacts>& files) {

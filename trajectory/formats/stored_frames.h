@@ -27,12 +27,12 @@ class StoredFrames : public FrameSource {
   /// What was read of a file.
   FrameFacts& facts_of(std::size_t file) { return facts_[file]; }
   /// Throws InputError when a file has been written to, or replaced, since this was made.
-  void require_unchanged() const;
+  void require_unchanged(std::size_t file = 0) const;
 
  private:
   struct State {
-    std::uintmax_t size = 0, inode = 0;
-    std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last written to
+    std::uintmax_t size = 0, device = 0, inode = 0;
+    std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last changed
     friend bool operator==(const State&, const State&) = default;
   };
   static State state_of(const std::string& file);

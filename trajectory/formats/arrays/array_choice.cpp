@@ -20,14 +20,15 @@ bool is_coordinates(std::uint64_t n) { return n == 2 || n == 3; }
 
 bool holds_frames(const StoredArray& array) {
   const auto& shape = array.header.shape;
-  return array.fault.empty() && is_real(array.header) && shape.size() == 3 && is_coordinates(shape[2]);
+  return is_real(array.header) && shape.size() == 3 && is_coordinates(shape[2]);
 }
 
-bool holds_one_frame(const StoredArray& array) { return array.fault.empty() && is_one_frame(array.header); }
+bool holds_one_frame(const StoredArray& array) { return is_one_frame(array.header); }
 
 /// Of so many corners each; 1 is one number for each cell.
 bool has_corners(const NpyHeader& header, std::uint64_t corners) {
-  if (is_real(header)) return false;
+  using Kind = NpyHeader::Kind;
+  if (header.kind != Kind::signed_integer && header.kind != Kind::unsigned_integer) return false;
   return corners == 1 ? header.shape.size() == 1 : header.shape.size() == 2 && header.shape[1] == corners;
 }
 
@@ -37,8 +38,14 @@ class Choice {
 
   ChosenArrays operator()(const std::vector<std::string>& keys) {
     if (keys.empty()) {
+      // One that is damaged might be the positions, or the faces.
+      for (const StoredArray& array : arrays_) {
+        if (!array.fault.empty())
+          throw InputError(array.name, "", array.fault + "; --keys POSITIONS,FACES leaves it out");
+      }
       chosen_.positions = the_positions();
       chosen_.cells = the_cells();
+      note_others();
     } else {
       chosen_.positions = {&named(keys[0])};
       for (std::size_t i = 1; i < keys.size(); ++i) chosen_.cells.push_back(&named(keys[i]));
@@ -53,7 +60,7 @@ class Choice {
     std::vector<std::string> there;
     for (const StoredArray& array : arrays_) {
       if (there.size() == most_listed) break;
-      there.push_back(on_one_line(array.key) + " " + (array.fault.empty() ? array.header.text() : "(not readable)"));
+      there.push_back(on_one_line(array.key) + " " + (array.fault.empty() ? array.header.text() : "(damaged)"));
     }
     const std::size_t more = arrays_.size() - there.size();
     throw InputError(where_, "",
@@ -75,7 +82,9 @@ class Choice {
     const Arrays found = that([&](const StoredArray& array) { return array.key == key; });
     if (found.empty()) fail(fmt::format("--keys: there is no array {}", in_quotes(key)));
     if (found.size() > 1) fail(fmt::format("--keys: there are {} arrays {}", found.size(), in_quotes(key)));
-    if (!found[0]->fault.empty()) throw InputError(found[0]->name, "", found[0]->fault);
+    for (const std::string& why : {found[0]->fault, found[0]->header.refusal}) {
+      if (!why.empty()) throw InputError(found[0]->name, "", why);
+    }
     return *found[0];
   }
 
@@ -94,8 +103,7 @@ class Choice {
   /// Faces; loose edges where there are none.
   Arrays the_cells() const {
     for (const std::uint64_t corners : {3U, 2U}) {
-      const Arrays found =
-          that([&](const StoredArray& array) { return array.fault.empty() && has_corners(array.header, corners); });
+      const Arrays found = that([&](const StoredArray& array) { return has_corners(array.header, corners); });
       if (found.size() == 1) return found;
       if (found.size() > 1) {
         fail(fmt::format("several arrays may be the {}; name them: --keys POSITIONS,{}",
@@ -105,6 +113,15 @@ class Choice {
     return {};
   }
 
+  void note_others() {
+    for (const StoredArray& array : arrays_) {
+      const bool taken = std::ranges::count(chosen_.cells, &array) > 0;
+      if (!taken && (has_corners(array.header, 3) || has_corners(array.header, 2))) {
+        chosen_.left_out.push_back(fmt::format("{} {}", on_one_line(array.key), array.header.text()));
+      }
+    }
+  }
+
   void require_shapes() {
     const StoredArray& first = *chosen_.positions[0];
     const bool together = holds_frames(first);
@@ -112,6 +129,11 @@ class Choice {
       throw InputError(
           first.name, "",
           fmt::format("is {}; expected positions, real numbers of shape (frames, vertices, 3)", first.header.text()));
+    }
+    for (const Arrays* const all : {&chosen_.positions, &chosen_.cells}) {
+      for (const StoredArray* const array : *all) {
+        if (!array->header.refusal.empty()) throw InputError(array->name, "", array->header.refusal);
+      }
     }
     const auto& shape = first.header.shape;
     chosen_.frames = together ? shape[0] : chosen_.positions.size();

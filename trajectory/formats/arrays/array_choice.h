@@ -22,7 +22,7 @@ struct StoredArray {
   std::string key, name;  ///< "vertices"; "motion.npz: vertices", as errors call it
   std::size_t file = 0;   ///< which of the files it is in
   NpyHeader header;
-  std::string fault;  ///< why it cannot be read; empty: it can
+  std::string fault;  ///< why it cannot be read although its type can be; empty: it can
   /// Its bytes from the first number on.
   std::function<std::unique_ptr<ByteStream>()> open;
 };
@@ -30,6 +30,7 @@ struct StoredArray {
 struct ChosenArrays {
   std::vector<const StoredArray*> positions;  ///< one with all frames, or one per frame
   std::vector<const StoredArray*> cells;
+  std::vector<std::string> left_out;  ///< arrays that could be cells too, and were not named
 
   /// How many frames, vertices, and coordinates of a vertex.
   std::size_t frames = 0, vertices = 0, coordinates = 3;

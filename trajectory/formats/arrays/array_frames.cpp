@@ -2,6 +2,7 @@
 #include "trajectory/formats/arrays/array_frames.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -23,7 +24,7 @@ constexpr std::size_t most_columns = std::size_t{1} << 25;  ///< numbers that ar
 
 /// What is wrong with the length of an array; "" if nothing is.
 std::string fault_of(const NpyHeader& header, std::uint64_t bytes) {
-  if (header.bytes() == bytes) return "";
+  if (!header.refusal.empty() || header.bytes() == bytes) return "";
   return fmt::format("is {}, which takes {} bytes, but has {}", header.text(), header.bytes(), bytes);
 }
 
@@ -66,7 +67,7 @@ void ArrayFrames::add_npz(const fs::path& file) {
       array.fault = header ? fault_of(*header, archive_->members()[i].size) : "is empty";
       if (header) array.header = *header;
     } catch (const InputError& error) {
-      array.fault = error.what();
+      array.fault = std::string(error.what()).substr(array.name.size() + 2);  // without its name
     }
     array.open = open;
     arrays_.push_back(std::move(array));
@@ -125,13 +126,23 @@ void ArrayFrames::describe() {
     facts.cells = mesh_.cell_count();
     facts.frames += chosen_.positions.size() == 1 ? chosen_.frames : 1;
   }
+  if (!archive_) return;
+  std::vector<std::string>& names = facts_of(0).arrays;
+  names = {chosen_.positions[0]->key};
+  for (const StoredArray* const cells : chosen_.cells) names.push_back(cells->key);
+}
+
+std::vector<std::string> ArrayFrames::notes() const {
+  if (chosen_.left_out.empty()) return {};
+  return {fmt::format("arrays that could be cells too are left out, unless --keys names them: {}",
+                      fmt::join(chosen_.left_out, ", "))};
 }
 
 std::optional<Frame> ArrayFrames::read(std::size_t k) {
   if (k >= chosen_.frames) return std::nullopt;
   end_if_stopped();
   const std::vector<double> numbers = numbers_of_frame(k);
-  require_unchanged();
+  require_unchanged(chosen_.positions[chosen_.positions.size() > 1 ? k : 0]->file);
   return Frame{mesh_, positions_of(numbers, chosen_.coordinates, name(k))};
 }
 

@@ -28,7 +28,7 @@ class ArrayFrames : public StoredFrames {
 
   std::optional<std::size_t> count() const override { return chosen_.frames; }
   std::optional<Frame> read(std::size_t k) override;
-  std::vector<std::string> notes() const override { return {}; }
+  std::vector<std::string> notes() const override;
 
  private:
   void add_npz(const std::filesystem::path& file);

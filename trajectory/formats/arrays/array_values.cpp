@@ -16,6 +16,7 @@ namespace {
 
 template <class Number>
 std::vector<Number> numbers_of(ByteStream& bytes, const NpyHeader& header, const std::string& name) {
+  if (!header.refusal.empty()) throw InputError(name, "", header.refusal);
   constexpr std::uint64_t most_at_once = std::uint64_t{1} << 20;
   std::vector<Number> numbers;
   for (std::uint64_t left = header.count(); left > 0;) {

@@ -40,7 +40,8 @@ class FileBytes : public ByteStream {
  public:
   /// Throws as InputFile does.
   explicit FileBytes(const std::filesystem::path& path) : file_(path) {}
-  FileBytes(const std::filesystem::path& path, const std::string& name) : file_(path, name) {}
+  /// Reads a descriptor, which is closed with this.
+  FileBytes(int descriptor, const std::string& name) : file_(descriptor, name) {}
   std::size_t read(char* to, std::size_t size) override { return file_.read(to, size); }
 
  private:

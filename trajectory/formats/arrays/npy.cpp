@@ -33,7 +33,14 @@ class HeaderText {
       expect(':');
       if (key == "descr" && !descr) {
         descr = true;
-        set_type(header, quoted());
+        skip_blanks();
+        if (rest_.starts_with('[')) {
+          skip_records();
+          header.kind = NpyHeader::Kind::other;
+          header.refusal = "is an array of records; expected one of numbers";
+        } else {
+          set_type(header, quoted());
+        }
       } else if (key == "fortran_order" && !order) {
         order = true;
         header.fortran = truth();
@@ -71,7 +78,6 @@ class HeaderText {
   }
   std::string quoted() {
     skip_blanks();
-    if (rest_.starts_with('[')) fail("is an array of records; expected one of numbers");
     const char quote = rest_.starts_with('"') ? '"' : '\'';
     expect(quote);
     const std::size_t end = rest_.find(quote);
@@ -79,6 +85,16 @@ class HeaderText {
     const std::string text(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
     return text;
+  }
+  /// Up to the bracket that closes this one. Names of fields with brackets in them are refused with the rest.
+  void skip_records() {
+    std::size_t depth = 0, at = 0;
+    for (; at < rest_.size(); ++at) {
+      if (rest_[at] == '[' || rest_[at] == '(') ++depth;
+      if ((rest_[at] == ']' || rest_[at] == ')') && --depth == 0) break;
+    }
+    if (at == rest_.size()) fail("the header ends within a list of fields");
+    rest_.remove_prefix(at + 1);
   }
   bool truth() {
     skip_blanks();
@@ -115,22 +131,22 @@ class HeaderText {
     return value;
   }
 
-  void set_type(NpyHeader& header, const std::string& descr) const {
+  /// Types that are not read keep their shape: float16 may be positions too.
+  static void set_type(NpyHeader& header, const std::string& descr) {
     using Kind = NpyHeader::Kind;
-    const auto refuse = [&] {
-      fail(fmt::format("is an array of type {}; expected float32, float64 or integers", in_quotes(descr)));
-    };
-    if (descr.size() != 3 || std::string_view("<>|=").find(descr[0]) == std::string_view::npos) refuse();
+    const bool known = descr.size() == 3 && std::string_view("<>|=").find(descr[0]) != std::string_view::npos;
+    const char kind = known ? descr[1] : '?';
+    header.kind = kind == 'f'   ? Kind::real
+                  : kind == 'i' ? Kind::signed_integer
+                  : kind == 'u' ? Kind::unsigned_integer
+                                : Kind::other;
+    const std::string_view sizes = kind == 'f' ? "48" : "1248";
+    if (header.kind == Kind::other || sizes.find(descr[2]) == std::string_view::npos) {
+      header.refusal = fmt::format("is an array of type {}; expected float32, float64 or integers", in_quotes(descr));
+      return;
+    }
     header.big_endian = descr[0] == '>';
     header.size = static_cast<std::size_t>(descr[2] - '0');
-    const std::string_view sizes = descr[1] == 'f' ? "48" : "1248";
-    if (sizes.find(descr[2]) == std::string_view::npos) refuse();
-    switch (descr[1]) {
-      case 'f': header.kind = Kind::real; break;
-      case 'i': header.kind = Kind::signed_integer; break;
-      case 'u': header.kind = Kind::unsigned_integer; break;
-      default: refuse();
-    }
   }
 
   std::string_view rest_;
@@ -189,6 +205,7 @@ std::uint64_t NpyHeader::count() const {
 }
 
 std::string NpyHeader::type() const {
+  if (!refusal.empty()) return "(other type)";
   const char* const words = kind == Kind::real ? "float" : kind == Kind::signed_integer ? "int" : "uint";
   return fmt::format("{}{}", words, 8 * size);
 }

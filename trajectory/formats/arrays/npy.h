@@ -18,7 +18,7 @@
 namespace noli {
 
 struct NpyHeader {
-  enum class Kind : std::uint8_t { real, signed_integer, unsigned_integer };
+  enum class Kind : std::uint8_t { real, signed_integer, unsigned_integer, other };
 
   Kind kind = Kind::real;
   std::size_t size = 8;  ///< bytes of a number: 4 or 8 of a real one, 1, 2, 4 or 8 of an integer
@@ -26,11 +26,12 @@ struct NpyHeader {
   bool fortran = false;  ///< the first index runs fastest
   std::vector<std::uint64_t> shape;
   std::uint64_t header_bytes = 0;  ///< before the first number
+  std::string refusal;             ///< why numbers of this type are not read; empty: they are
 
-  std::uint64_t count() const;  ///< of numbers; below 2^60
-  std::uint64_t bytes() const { return header_bytes + count() * size; }
-  std::string type() const;  ///< "float64", "int32"
-  std::string text() const;  ///< "float64 (60, 4, 3)"
+  std::uint64_t count() const;                                           ///< of numbers; below 2^60
+  std::uint64_t bytes() const { return header_bytes + count() * size; }  ///< of a type that is read
+  std::string type() const;                                              ///< "float64", "int32"
+  std::string text() const;                                              ///< "float64 (60, 4, 3)"
 };
 
 /// Reads the header of the array that begins here; nothing at the end of the stream. `name`: what errors call it.

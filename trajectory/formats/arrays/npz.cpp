@@ -32,7 +32,8 @@ class Archive {
 /// The bytes of a member, from its beginning. Its sum is compared at its end.
 class Member : public ByteStream {
  public:
-  Member(const std::string& file, const NpzMember& member, std::string name) : archive_(file), name_(std::move(name)) {
+  Member(const std::string& file, const NpzMember& member, std::string name)
+      : archive_(file), name_(std::move(name)), left_(member.size) {
     unz64_file_pos at{member.offset, member.number};
     if (unzGoToFilePos64(archive_.get(), &at) != UNZ_OK || unzOpenCurrentFile(archive_.get()) != UNZ_OK) {
       throw InputError(name_, "", "cannot be read: damaged, encrypted, or neither stored nor deflated");
@@ -45,7 +46,8 @@ class Member : public ByteStream {
     if (ended_) return 0;
     const int got = unzReadCurrentFile(archive_.get(), to, static_cast<unsigned>(size));
     ended_ = got == 0 && size > 0;
-    if (got < 0 || (ended_ && unzCloseCurrentFile(archive_.get()) == UNZ_CRCERROR)) {
+    if (got > 0) left_ -= std::min<std::uint64_t>(left_, static_cast<std::uint64_t>(got));
+    if (got < 0 || (ended_ && left_ > 0) || (ended_ && unzCloseCurrentFile(archive_.get()) == UNZ_CRCERROR)) {
       throw InputError(name_, "", "is damaged: it cannot be inflated, or its sum is wrong");
     }
     return static_cast<std::size_t>(got);
@@ -54,6 +56,7 @@ class Member : public ByteStream {
  private:
   Archive archive_;
   std::string name_;
+  std::uint64_t left_;  ///< bytes that are still to come
   bool ended_ = false;
 };
 
@@ -64,7 +67,8 @@ NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
   const Archive archive(name_);
   constexpr std::size_t longest_name = 1 << 12;
   std::string name(longest_name, 0);
-  for (int code = unzGoToFirstFile(archive.get()); code == UNZ_OK; code = unzGoToNextFile(archive.get())) {
+  int code = unzGoToFirstFile(archive.get());
+  for (; code == UNZ_OK; code = unzGoToNextFile(archive.get())) {
     unz_file_info64 info;
     unz64_file_pos at;
     if (unzGetCurrentFileInfo64(archive.get(), &info, name.data(), name.size(), nullptr, 0, nullptr, 0) != UNZ_OK ||
@@ -76,6 +80,8 @@ NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
     members_.push_back({key.substr(0, key.size() - 4), info.uncompressed_size, info.compressed_size,
                         at.pos_in_zip_directory, at.num_of_file});
   }
+  // What lies behind a damaged entry would be missed.
+  if (code != UNZ_END_OF_LIST_OF_FILE) throw InputError(name_, "", "has a damaged directory");
 }
 
 std::unique_ptr<ByteStream> NpzFile::open(std::size_t number) const {

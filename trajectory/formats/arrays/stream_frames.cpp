@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include <noli/errors.h>
@@ -90,6 +91,7 @@ void StreamFrames::require_frame(const NpyHeader& header) const {
 }
 
 std::optional<Frame> StreamFrames::read(std::size_t k) {
+  if (k < frames_) throw std::logic_error("a stream is read once");
   std::optional<Frame> frame;
   while (frames_ <= k) {
     frame = next_frame();

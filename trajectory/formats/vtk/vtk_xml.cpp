@@ -37,7 +37,10 @@ class ArrayBytes {
     std::string bytes;
     bytes.reserve(count);
     while (bytes.size() < count) {
-      if (waiting_.empty()) decode_part();
+      if (waiting_.empty()) {
+        end_if_stopped();
+        decode_part();
+      }
       const std::size_t part = std::min<std::size_t>(waiting_.size(), count - bytes.size());
       bytes.append(waiting_, 0, part);
       waiting_.erase(0, part);
@@ -61,7 +64,7 @@ class ArrayBytes {
         if (rest_.empty()) break;
         const int value = value_of(rest_.front());
         if (value == pad) ++padding;
-        if (value == none || (padding > 0 && value != pad)) throw Damaged{"has a letter that is none of base64"};
+        if (value == none || (padding > 0 && value != pad)) throw Damaged{"has a character that is not base64"};
         bits = bits << 6 | static_cast<std::uint32_t>(value == pad ? 0 : value);
         rest_.remove_prefix(1);
         ++letters;

@@ -40,8 +40,6 @@ class VtkXml {
 
  private:
   std::string bytes_of(const pugi::xml_node& array) const;
-  template <class Number>
-  std::vector<Number> numbers(const pugi::xml_node& array) const;
   template <class From, class Number>
   std::vector<Number> converted(const pugi::xml_node& array) const;
 
