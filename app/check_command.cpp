@@ -198,7 +198,8 @@ ExitCode run(CheckArguments& arguments) {
     throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
-  std::vector<fs::path> inputs = arguments.files;
+  std::vector<fs::path> inputs = files_named(arguments.files);
+  inputs.insert(inputs.end(), ordered.frames.begin(), ordered.frames.end());
   if (arguments.claim) inputs.push_back(*arguments.claim);
   const Output output(arguments.results, inputs);
   std::vector<std::string> asked = asked_by(arguments), notes = ordered.notes;

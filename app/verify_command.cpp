@@ -68,6 +68,7 @@ constexpr const char* verify_footer =
 struct VerifyArguments {
   VerifyRequest request;
   BodyWords bodies;
+  std::vector<std::filesystem::path> given;  ///< files that stand for frames: lists, series
   std::optional<std::filesystem::path> claim_out, junit;
   bool github = false;  ///< annotations for GitHub Actions on standard output
   std::string time_limit;
@@ -155,8 +156,6 @@ class MotionFile {
 
 /// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
 std::string where(const VerifyRequest& request, std::string_view work, double share) {
-  if (request.run || request.frames.size() < 3 || !request.reading.bodies.empty()) return "";
-  if (!std::ranges::all_of(request.frames, is_frame_name)) return "";
   const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
   const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
   const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
@@ -179,6 +178,7 @@ VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
 /// The files that names on the command line stand for.
 void name_frames(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
+  arguments.given = files_named(request.frames);
   if (request.frames.empty() && !arguments.bodies.any()) {
     throw UsageError("expected frames, bodies (--body) or the folder of a run");
   }
@@ -213,6 +213,7 @@ ExitCode run(VerifyArguments& arguments) {
   request.live = request.run && is_locked(request.frames[0]);
   prepare_to_reproduce(request);
   auto inputs = request.frames;
+  inputs.insert(inputs.end(), arguments.given.begin(), arguments.given.end());
   if (request.ignore) inputs.push_back(*request.ignore);
   const Output output(arguments.results, inputs, outputs_of(arguments));
   if (arguments.github && arguments.results.json == "-") {
@@ -225,7 +226,11 @@ ExitCode run(VerifyArguments& arguments) {
   ProofRoute route(request);
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);
-  request.progress = [&](std::string_view work, double share) { bars->show(work, share, where(request, work, share)); };
+  const bool told = !request.run && request.frames.size() > 2 && request.reading.bodies.empty() &&
+                    std::ranges::all_of(request.frames, is_frame_name);
+  request.progress = [&](std::string_view work, double share) {
+    bars->show(work, share, told ? where(request, work, share) : "");
+  };
   const VerifyOutcome outcome = verify(request, route);
   bars.reset();
   if (arguments.claim_out && outcome.claim.cells.empty()) {

@@ -45,6 +45,36 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
+/// The file of --trajectory. Until all frames are in it, it has another name that nobody has, so that no checker takes a
+/// part for the whole; what was not finished vanishes.
+class TrajectoryFile {
+ public:
+  TrajectoryFile(std::filesystem::path file, const Mesh& mesh)
+      : file_(std::move(file)),
+        part_(file_.string() + fmt::format(".{}.part", ::getpid())),
+        writer_(std::make_unique<FileSink>(part_, FileSink::Open::create), mesh) {}
+  ~TrajectoryFile() {
+    std::error_code error;
+    if (!finished_) std::filesystem::remove(part_, error);
+  }
+  TrajectoryFile(const TrajectoryFile&) = delete;
+  TrajectoryFile& operator=(const TrajectoryFile&) = delete;
+
+  FramesWriter& writer() { return writer_; }
+  /// Throws std::system_error.
+  void finish() {
+    writer_.finish();
+    std::filesystem::rename(part_, file_);
+    finished_ = true;
+  }
+  bool finished() const { return finished_; }
+
+ private:
+  std::filesystem::path file_, part_;
+  FramesWriter writer_;
+  bool finished_ = false;
+};
+
 class SequenceVerification : private Verification {
  public:
   explicit SequenceVerification(const VerifyRequest& request)
@@ -95,20 +125,6 @@ class SequenceVerification : private Verification {
     while (!stopped() && read_next(sequence_)) write_frames();
     if (!trajectory_ || stopped()) return;
     trajectory_->finish();
-    trajectory_.reset();
-    std::filesystem::rename(part_of_trajectory(), *request_.trajectory);
-  }
-
-  /// Until all frames are in it, the file has another name, so that no checker takes a part for the whole.
-  std::filesystem::path part_of_trajectory() const { return request_.trajectory->string() + ".part"; }
-
-  void drop_part_of_trajectory() {
-    if (!trajectory_) return;
-    trajectory_.reset();
-    std::error_code error;
-    std::filesystem::remove(part_of_trajectory(), error);
-    outcome_.notes.push_back(
-        fmt::format("{} was not written: not all frames were read", request_.trajectory->string()));
   }
 
   /// Those that were read for this step.
@@ -120,11 +136,8 @@ class SequenceVerification : private Verification {
 
   void write_frames() {
     if (!request_.trajectory) return;
-    if (!trajectory_) {
-      std::filesystem::remove(part_of_trajectory());
-      trajectory_.emplace(std::make_unique<FileSink>(part_of_trajectory(), FileSink::Open::create), sequence_.mesh());
-    }
-    append_frames(*trajectory_);
+    if (!trajectory_) trajectory_.emplace(*request_.trajectory, sequence_.mesh());
+    append_frames(trajectory_->writer());
   }
 
   /// To a checker that reads them on their way. It reads those of a step when the proof comes to it.
@@ -328,7 +341,9 @@ class SequenceVerification : private Verification {
     outcome_.bodies = source_->bodies();
     if (verifier_) list_contacts(verifier_->mesh(), names_of_frames(outcome_.bodies));
     put_notes();
-    drop_part_of_trajectory();
+    if (trajectory_ && !trajectory_->finished()) {
+      outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
+    }
     outcome_.inputs = source_->facts();
   }
 
@@ -364,7 +379,8 @@ class SequenceVerification : private Verification {
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
   bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;
-  std::optional<FramesWriter> trajectory_, given_;  ///< --trajectory, and what the checker reads on its way
+  std::optional<TrajectoryFile> trajectory_;  ///< --trajectory
+  std::optional<FramesWriter> given_;         ///< what the checker reads on its way
 };
 
 }  // namespace

@@ -79,8 +79,11 @@ std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frame
   CheckerProcess checker(request);
   const std::optional<CheckerVerdict> verdict = checker.finish();
   const std::exception_ptr fault = giving.join();
-  // Frames behind the last step that was asked for do not matter; of others the checker saw a part.
-  const bool settled = verdict && verdict->code != 3;
+  // A witness refutes whatever follows. What was accepted is about all steps, of which the checker saw a part, unless the
+  // steps that are asked for are named.
+  const bool named =
+      std::ranges::any_of(request.asked, [](const std::string& word) { return word.starts_with("steps="); });
+  const bool settled = verdict && (verdict->code == 1 || (verdict->code == 0 && named));
   if (fault && !settled) std::rethrow_exception(fault);
   return verdict;
 }

@@ -190,6 +190,26 @@ TEST_F(StreamedFrames, ThatCannotBeReadEndTheCheck) {
   EXPECT_EQ(run_noli({"check", folder.write("no.noli", "no proof"), good}).exit_code, 3);
 }
 
+/// Without --require steps= it is asked of all frames, and one more cannot be read.
+TEST_F(StreamedFrames, BehindAProofThatCannotBeReadEndTheCheckToo) {
+  const std::string first = folder.path("first.noli");
+  ASSERT_EQ(run_noli({"verify", npz("two.npz", still(2)), "--proof", first}).exit_code, 0);
+  NumpyArray positions = still(3);
+  positions.numbers.back() = std::numeric_limits<double>::infinity();
+  const Process process = run_noli({"check", first, npz("bad.npz", positions)});
+  EXPECT_EQ(process.exit_code, 3) << process.out;
+  EXPECT_NE(process.err.find("bad.npz[2]"), std::string::npos) << process.err;
+}
+
+TEST_F(StreamedFrames, OutputsDoNotReplaceWhatNamesThem) {
+  const std::string list = folder.write("l.txt", npz("m.npz", still(2)) + "\n");
+  EXPECT_EQ(run_noli({"verify", "@" + list, "--json", list, "--force"}).exit_code, 3);
+  EXPECT_EQ(run_noli({"verify", "@" + list, "--trajectory", folder.path("m.npz"), "--force"}).exit_code, 3);
+  const std::string part = folder.write("x.part", "mine");
+  EXPECT_EQ(run_noli({"verify", "@" + list, "--trajectory", folder.path("x")}).exit_code, 0);
+  EXPECT_EQ(test::read_text(part), "mine");
+}
+
 /// Nobody knows whether another frame would have come.
 TEST_F(StreamedFrames, OfAStreamThatIsStoppedAreUndecided) {
   std::string text = faces.bytes();

@@ -70,6 +70,16 @@ class Arrays : public ::testing::Test {
       for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(found->positions[v][c], c < coordinates ? x(k, v, c) : 0);
     }
   }
+  static std::string refusal_or_none(const Paths& files, const std::vector<std::string>& keys) {
+    try {
+      const auto source = open_frames(files, {.keys = keys});
+      for (std::size_t k = 0; source->read(k); ++k) {
+      }
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
   /// What is said of these files when all of it is read.
   static std::string refusal(const Paths& files, const std::vector<std::string>& keys = {}) {
     return input_error([&] {
@@ -167,9 +177,12 @@ TEST_F(Arrays, AreChosenByNameWhereSeveralFit) {
 
 TEST_F(Arrays, ThatCannotBeReadMatterOnlyIfTheyAreWanted) {
   const std::string objects = test::npy("{'descr': '|O', 'fortran_order': False, 'shape': (1,)}", "x");
-  const auto file = folder.write(
-      "o.npz",
-      stored_zip({{"x.npy", motion().bytes()}, {"f.npy", faces.bytes()}, {"o.npy", objects}, {"readme.txt", "x"}}));
+  const auto file =
+      folder.write("o.npz", stored_zip({{"x.npy", motion().bytes()}, {"f.npy", faces.bytes()}, {"o.npy", objects}}));
+  const auto more =
+      folder.write("p.npz", stored_zip({{"x.npy", motion().bytes()}, {"f.npy", faces.bytes()}, {"faces.npx", "x"}}));
+  EXPECT_NE(refusal({more}).find("has the member 'faces.npx', which is no .npy"), std::string::npos);
+  EXPECT_EQ(refusal_or_none({more}, {"x", "f"}), "");
   expect_motion(*open_frames({file}));
   EXPECT_NE(refusal({file}, {"o"}).find("'|O'"), std::string::npos);
 }
@@ -209,10 +222,20 @@ TEST_F(Arrays, OfOtherTypesAreNotOverlooked) {
   const auto alone = folder.write("a.npz", stored_zip({{"x.npy", text}, {"f.npy", faces.bytes()}}));
   EXPECT_EQ(refusal({alone}), alone.string() + ": x: is an array of type '<f2'; expected float32, float64 or integers");
   const auto both = npz({{"x", motion()}, {"f", faces}, {"e", {"<i4", {1, 2}, {0, 3}}}});
-  const auto source = open_frames({both});
+  EXPECT_NE(refusal({both}).find("e may be cells too; name the arrays that count"), std::string::npos);
+  const auto source = open_frames({both}, {.keys = {"x", "f"}});
   EXPECT_EQ(source->facts()[0].arrays, (std::vector<std::string>{"x", "f"}));
-  ASSERT_EQ(source->notes().size(), 1U);
-  EXPECT_NE(source->notes()[0].find("e int32 (1, 2)"), std::string::npos) << "loose edges that are left out";
+  EXPECT_EQ(source->notes(), std::vector<std::string>{"positions are the array x, cells f"});
+  EXPECT_NE(
+      refusal({npz({{"x", motion()}, {"f", faces}, {"q", {"<i4", {1, 4}, {0, 1, 2, 3}}}})}).find("q may be cells"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal({npz({{"x", motion()}, {"f", faces}, {"i", {"<i4", {1, 1, 3}, {0, 1, 2}}}})}).find("i may be positions"),
+      std::string::npos);
+  EXPECT_EQ(
+      open_frames({npz({{"x", motion()}, {"f", faces}, {"n", frame(0)}, {"t", {"<f8", {3}, {0, 1, 2}}}})})->count(),
+      frame_count)
+      << "real numbers for each vertex, and times";
 }
 
 TEST_F(Arrays, BehindADamagedEntryOfTheDirectoryAreMissed) {

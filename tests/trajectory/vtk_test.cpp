@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Frames of VTK: what Noli writes comes back bit for bit, kinds of cells, and what is damaged.
+#include <algorithm>
 #include <limits>
 
 #include "support.h"
@@ -21,9 +22,11 @@ using Edges = std::vector<std::array<VertexId, 2>>;
 
 /// A grid of eight points on a line, with these cells, as text.
 std::string grid(const std::string& connectivity, const std::string& offsets, const std::string& types) {
+  const auto cells = 1 + std::count(types.begin(), types.end(), ' ');
   return R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>
-<Piece NumberOfPoints="8" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+<Piece NumberOfPoints="8" NumberOfCells=")" +
+         std::to_string(cells) + R"("><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
 0 0 0 1 0 0 2 0 0 3 0 0 4 0 0 5 0 0 6 0 0 7 0.1 -1e-3
 </DataArray></Points><Cells>
 <DataArray type="Int32" Name="connectivity" format="ascii">)" +
@@ -135,8 +138,28 @@ TEST(Vtk, BelievesNoLength) {
   const std::string compressed = "compressor=\"vtkZLibDataCompressor\"";
   EXPECT_EQ(with("////fwAAAAAAAAAA", compressed), where + "announces 2147483647 compressed blocks");
   EXPECT_EQ(with("AQAAAP///38AAAAABAAAAA==AAAAAA==", compressed),
-            where + "announces more bytes than zlib can have put there");
+            where + "unpacks to more than a hundred times the file");
   EXPECT_EQ(with("AQAAAAgAAAAAAAAABAAAAA==AAAAAA==", compressed), where + "has a block that zlib refuses");
+}
+
+/// What VTK refuses, or takes otherwise.
+TEST(Vtk, RefusesWhatItWouldOverlook) {
+  const std::string good = grid("0 1 2 2 1 3", "3 6", "5 5");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    return input_error([&] { parse_vtk(replaced(good, from, to), "a.vtu"); });
+  };
+  EXPECT_NE(with("NumberOfCells=\"2\"", "NumberOfCells=\"3\"").find("has 2 cells, but NumberOfCells is 3"),
+            std::string::npos);
+  EXPECT_NE(with(">3 6<", ">3 <!-- a comment -->6<").find("has more than one text in it"), std::string::npos);
+  EXPECT_NE(with(">3 6<", "><b/>3 6<").find("has more than one text in it"), std::string::npos);
+  EXPECT_NE(with(">3 6<", "><![CDATA[3 6]]><").find("has more than one text in it"), std::string::npos);
+  EXPECT_NE(with(">3 6<", ">3 5<").find("has 2 points"), std::string::npos);
+  EXPECT_NE(with("<UnstructuredGrid>", "<UnstructuredGrid TimeValues=\"0 1\">").find("several times"),
+            std::string::npos);
+  EXPECT_NE(with("<Cells>", "<Cells></Cells><Cells>").find("has two elements Cells"), std::string::npos);
+  EXPECT_NE(with("<Points>", "<Points><DataArray type=\"Float64\"/>").find("has two elements DataArray"),
+            std::string::npos);
+  EXPECT_NE(with("Name=\"connectivity\"", "Name=\"offsets\"").find("is there twice"), std::string::npos);
 }
 
 TEST(Vtk, ExpandsNoEntities) {

@@ -26,6 +26,7 @@ std::optional<Frame> BlockFrames::read(std::size_t k) {
   }
   require_unchanged();
   if (!positions) return std::nullopt;
+  if (k + 1 == count_) require_same_bytes();
   return Frame{reader_->mesh(), std::move(*positions)};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "trajectory/cells.h"
+#include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/ply_header.h"
 #include "trajectory/formats/polygons.h"
@@ -85,8 +86,8 @@ FileInfo describe_file(const std::filesystem::path& path) {
   const std::string bytes = read_whole_file(path);
   FileInfo info = describe_frame(parse_frame(bytes, path));
   if (!bytes.starts_with("ply")) {  // an OBJ file that begins with "ply" has been refused
-    info.format = "OBJ";
-    info.number_type = "decimal";
+    info.format = mesh_format(path) == MeshFormat::vtk ? "VTK" : "OBJ";
+    info.number_type = info.format == "VTK" ? look_at_frame(bytes, path).facts.numbers : "decimal";
     return info;
   }
   const PlyHeader header = parse_ply_header(bytes, path.string());

@@ -131,4 +131,13 @@ Paths named_frames(const Paths& given) {
   return files;
 }
 
+Paths files_named(const Paths& given) {
+  Paths files;
+  for (const fs::path& name : given) {
+    const std::string text = name.string();
+    files.push_back(text.starts_with('@') ? fs::path(text.substr(1)) : name);
+  }
+  return files;
+}
+
 }  // namespace noli

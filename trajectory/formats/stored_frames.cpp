@@ -45,6 +45,15 @@ void StoredFrames::require_unchanged(std::size_t file) const {
                    "has changed since it was opened; verify the frames again once the file is complete");
 }
 
+void StoredFrames::require_same_bytes() const {
+  for (const FrameFacts& facts : facts_) {
+    if (!facts.looked_at) continue;
+    if (file_facts(facts.file, [] { return stop_asked().has_value(); }).sha256 == facts.sha256) continue;
+    throw InputError(facts.file, "",
+                     "has changed since it was looked at; verify the frames again once the file is complete");
+  }
+}
+
 std::uint64_t frame_count(const std::vector<FrameFacts>& files) {
   std::uint64_t count = 0;
   for (const FrameFacts& facts : files) count += facts.body == files[0].body ? facts.frames : 0;

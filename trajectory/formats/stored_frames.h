@@ -28,6 +28,9 @@ class StoredFrames : public FrameSource {
   FrameFacts& facts_of(std::size_t file) { return facts_[file]; }
   /// Throws InputError when a file has been written to, or replaced, since this was made.
   void require_unchanged(std::size_t file = 0) const;
+  /// Throws InputError unless the files that were looked at still have the same hashes: what was written through mapped
+  /// memory has left no other trace. Call it when the last frame has been read. Throws ReadInterrupted.
+  void require_same_bytes() const;
 
  private:
   struct State {

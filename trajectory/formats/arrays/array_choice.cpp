@@ -45,7 +45,7 @@ class Choice {
       }
       chosen_.positions = the_positions();
       chosen_.cells = the_cells();
-      note_others();
+      require_no_doubt();
     } else {
       chosen_.positions = {&named(keys[0])};
       for (std::size_t i = 1; i < keys.size(); ++i) chosen_.cells.push_back(&named(keys[i]));
@@ -113,12 +113,17 @@ class Choice {
     return {};
   }
 
-  void note_others() {
+  /// What was not chosen must not be cells or positions in any reading.
+  void require_no_doubt() const {
     for (const StoredArray& array : arrays_) {
-      const bool taken = std::ranges::count(chosen_.cells, &array) > 0;
-      if (!taken && (has_corners(array.header, 3) || has_corners(array.header, 2))) {
-        chosen_.left_out.push_back(fmt::format("{} {}", on_one_line(array.key), array.header.text()));
-      }
+      if (std::ranges::count(chosen_.positions, &array) + std::ranges::count(chosen_.cells, &array) > 0) continue;
+      const auto& shape = array.header.shape;
+      const bool real = array.header.kind == NpyHeader::Kind::real;
+      const bool may_be_cells = !real && shape.size() == 2 && shape[1] >= 2 && shape[1] <= 4;
+      const bool may_be_frames = shape.size() == 3 && is_coordinates(shape[2]);
+      if (!may_be_cells && !may_be_frames) continue;
+      fail(fmt::format("{} may be {} too; name the arrays that count: --keys POSITIONS,FACES", on_one_line(array.key),
+                       may_be_cells ? "cells" : "positions"));
     }
   }
 

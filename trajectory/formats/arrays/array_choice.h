@@ -30,7 +30,6 @@ struct StoredArray {
 struct ChosenArrays {
   std::vector<const StoredArray*> positions;  ///< one with all frames, or one per frame
   std::vector<const StoredArray*> cells;
-  std::vector<std::string> left_out;  ///< arrays that could be cells too, and were not named
 
   /// How many frames, vertices, and coordinates of a vertex.
   std::size_t frames = 0, vertices = 0, coordinates = 3;

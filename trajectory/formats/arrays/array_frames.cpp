@@ -45,7 +45,14 @@ ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<s
   }
   const std::string where = files.size() == 1 ? files[0].string() : "the arrays";
   chosen_ = choose_arrays(arrays_, keys, where);
-  if (archive_ && keys.empty()) require_others_whole();
+  if (archive_ && keys.empty()) {
+    if (!archive_->others().empty()) {
+      throw InputError(where, "",
+                       fmt::format("has the member {}, which is no .npy; --keys POSITIONS,FACES leaves it out",
+                                   in_quotes(archive_->others()[0])));
+    }
+    require_others_whole();
+  }
   read_mesh();
   describe();
 }
@@ -133,9 +140,11 @@ void ArrayFrames::describe() {
 }
 
 std::vector<std::string> ArrayFrames::notes() const {
-  if (chosen_.left_out.empty()) return {};
-  return {fmt::format("arrays that could be cells too are left out, unless --keys names them: {}",
-                      fmt::join(chosen_.left_out, ", "))};
+  if (!archive_) return {};
+  std::vector<std::string> names;
+  for (const StoredArray* const cells : chosen_.cells) names.push_back(on_one_line(cells->key));
+  return {fmt::format("positions are the array {}, cells {}", on_one_line(chosen_.positions[0]->key),
+                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))};
 }
 
 std::optional<Frame> ArrayFrames::read(std::size_t k) {
@@ -143,6 +152,7 @@ std::optional<Frame> ArrayFrames::read(std::size_t k) {
   end_if_stopped();
   const std::vector<double> numbers = numbers_of_frame(k);
   require_unchanged(chosen_.positions[chosen_.positions.size() > 1 ? k : 0]->file);
+  if (k + 1 == chosen_.frames) require_same_bytes();
   return Frame{mesh_, positions_of(numbers, chosen_.coordinates, name(k))};
 }
 
@@ -174,8 +184,13 @@ std::vector<double> ArrayFrames::next_in_order(const StoredArray& array, std::si
   }
   const std::size_t size = chosen_.vertices * chosen_.coordinates;
   if (k > next_) skip_numbers(*stream_, array.header, array.name, std::uint64_t{size} * (k - next_));
-  std::vector<double> numbers(size);
-  read_numbers(*stream_, array.header, array.name, std::span<double>(numbers));
+  std::vector<double> numbers;
+  while (numbers.size() < size) {  // grows as bytes come
+    end_if_stopped();
+    const std::size_t before = numbers.size();
+    numbers.resize(std::min(size, std::max<std::size_t>(2 * before, 4096)));
+    read_numbers(*stream_, array.header, array.name, std::span<double>(numbers).subspan(before));
+  }
   next_ = k + 1;
   if (next_ == chosen_.frames) require_end(*stream_, array.name);
   return numbers;
@@ -189,6 +204,7 @@ void ArrayFrames::load_columns(const StoredArray& array, std::size_t first) {
   columns_.resize(rows * columns_count_);
   const auto bytes = array.open();
   for (std::size_t row = 0; row < rows; ++row) {
+    if (row % 1024 == 0) end_if_stopped();
     skip_numbers(*bytes, array.header, array.name, first);
     read_numbers(*bytes, array.header, array.name,
                  std::span<double>(columns_).subspan(row * columns_count_, columns_count_));

@@ -5,6 +5,7 @@
 #include <minizip/unzip.h>
 
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 #include <noli/errors.h>
@@ -75,13 +76,48 @@ NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
         unzGetFilePos64(archive.get(), &at) != UNZ_OK) {
       throw InputError(name_, "", "has a damaged directory");
     }
+    directory_bytes_ += 46 + info.size_filename + info.size_file_extra + info.size_file_comment;
     const std::string key = name.substr(0, std::min<std::size_t>(info.size_filename, longest_name));
-    if (!key.ends_with(".npy")) continue;
+    end_if_stopped();
+    if (!key.ends_with(".npy")) {
+      others_.push_back(key);
+      continue;
+    }
+    if (info.uncompressed_size >= 0xffffffff) {
+      throw InputError(name_, in_quotes(key), "has 4 GB or more; expected a .npy file for so large an array");
+    }
     members_.push_back({key.substr(0, key.size() - 4), info.uncompressed_size, info.compressed_size,
                         at.pos_in_zip_directory, at.num_of_file});
   }
   // What lies behind a damaged entry would be missed.
   if (code != UNZ_END_OF_LIST_OF_FILE) throw InputError(name_, "", "has a damaged directory");
+  require_end_of_directory(archive.get());
+}
+
+/// The directory goes up to its end record, which is the end of the file: then no entry is missed, and no other directory
+/// is hidden in a comment.
+void NpzFile::require_end_of_directory(void* archive) const {
+  unz_global_info64 all;
+  std::ifstream file = open_regular_file(name_);
+  file.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  constexpr std::uint64_t record = 22;
+  std::string end(record, 0);
+  const bool read = size >= record && file.seekg(static_cast<std::streamoff>(size - record)) &&
+                    file.read(end.data(), static_cast<std::streamsize>(record));
+  const auto number = [&](std::size_t at, std::size_t bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t i = bytes; i > 0; --i) value = value << 8 | static_cast<unsigned char>(end[at + i - 1]);
+    return value;
+  };
+  const bool plain = read && end.starts_with("PK\5\6") && unzGetGlobalInfo64(archive, &all) == UNZ_OK;
+  if (!plain) throw InputError(name_, "", "has something behind its directory; expected an archive without a comment");
+  const std::uint64_t begin = number(16, 4), length = number(12, 4);
+  const bool large = begin == 0xffffffff || length == 0xffffffff || number(10, 2) == 0xffff;
+  const std::uint64_t entries = members_.size() + others_.size();
+  if (!large && (begin + length != size - record || directory_bytes_ != length || number(10, 2) != entries)) {
+    throw InputError(name_, "", "has a damaged directory");
+  }
 }
 
 std::unique_ptr<ByteStream> NpzFile::open(std::size_t number) const {

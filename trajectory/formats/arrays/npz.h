@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arrays of a `.npz` file: a ZIP archive of `.npy` members, stored or deflated, also of more than 4 GB. Read with
+// The arrays of a `.npz` file: a ZIP archive of `.npy` members, stored or deflated, of less than 4 GB each. Read with
 // minizip, which checks the members' CRC. (libzip would bring OpenSSL into every `noli`.)
 #pragma once
 
@@ -28,13 +28,19 @@ class NpzFile {
   explicit NpzFile(const std::filesystem::path& path);
 
   const std::vector<NpzMember>& members() const { return members_; }
+  /// Names of members that do not end in .npy.
+  const std::vector<std::string>& others() const { return others_; }
   /// The bytes of a member, as they were before they were deflated. Refuses what is longer than a gigabyte and was
   /// deflated to less than a two hundredth of it. Throws InputError.
   std::unique_ptr<ByteStream> open(std::size_t number) const;
 
  private:
+  void require_end_of_directory(void* archive) const;
+
   std::string name_;
   std::vector<NpzMember> members_;
+  std::vector<std::string> others_;
+  std::uint64_t directory_bytes_ = 0;
 };
 
 }  // namespace noli

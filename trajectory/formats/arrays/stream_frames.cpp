@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -55,6 +56,14 @@ void StreamFrames::read_cells() {
   auto header = next_array();
   std::vector<std::pair<std::vector<std::int64_t>, std::size_t>> cells;
   for (; header && is_cells(*header); header = next_array()) {
+    const std::size_t corners = corners_of(*header);
+    if (std::ranges::count(cells, corners, [](const auto& one) { return one.second; }) > 0) {
+      throw InputError(
+          array_name(), "",
+          fmt::format("is {}, and so was an array before; expected one of each kind of cell, then positions, "
+                      "which are real numbers",
+                      header->text()));
+    }
     cells.emplace_back(integers_of(*bytes_, *header, array_name()), corners_of(*header));
   }
   if (!header) throw InputError("standard input", "", "ends before its first frame; expected cells, then positions");

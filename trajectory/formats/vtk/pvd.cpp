@@ -17,6 +17,10 @@ std::vector<std::filesystem::path> files_of_pvd(const std::filesystem::path& ser
   double before = 0;
   for (const pugi::xml_node entry : xml.content().children("DataSet")) {
     const std::string file = entry.attribute("file").value();
+    const std::string part = entry.attribute("part").value();
+    if (!part.empty() && part != "0")
+      throw InputError(series.string(), file,
+                       "is part " + in_quotes(part) + " of a frame; expected frames of one part");
     if (file.empty()) throw InputError(series.string(), "DataSet", "names no file");
     double time = 0;
     const std::string problem = parse_finite(std::string_view(entry.attribute("timestep").value()), time);

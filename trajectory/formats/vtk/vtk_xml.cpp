@@ -114,7 +114,7 @@ std::string inflated(const std::string& deflated, std::uint64_t size) {
 }  // namespace
 
 VtkXml::VtkXml(std::string_view bytes, std::string file, std::span<const std::string_view> types)
-    : file_(std::move(file)) {
+    : file_(std::move(file)), file_bytes_(bytes.size()) {
   // What is appended may be raw, and then is no XML.
   const std::size_t at = bytes.find("<AppendedData");
   std::string xml(bytes.substr(0, at));
@@ -129,7 +129,7 @@ VtkXml::VtkXml(std::string_view bytes, std::string file, std::span<const std::st
     xml += "</VTKFile>";
   }
   const pugi::xml_parse_result result =
-      document_.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+      document_.load_buffer(xml.data(), xml.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
   if (!result)
     throw InputError(file_, byte_place(static_cast<std::size_t>(result.offset)),
                      std::string("is no XML: ") + result.description());
@@ -148,13 +148,19 @@ VtkXml::VtkXml(std::string_view bytes, std::string file, std::span<const std::st
     throw InputError(
         file_, "", fmt::format("is compressed by {}; expected vtkZLibDataCompressor, or none", in_quotes(compressor)));
   }
-  content_ = root.child(type.c_str());
+  content_ = only(root, type.c_str());
   if (!content_) throw InputError(file_, "", "has no element " + type);
 }
 
 void VtkXml::fail(const pugi::xml_node& where, const std::string& problem) const {
   const std::string name = where.attribute("Name").value();
   throw InputError(file_, name.empty() ? where.name() : fmt::format("{} {}", where.name(), in_quotes(name)), problem);
+}
+
+pugi::xml_node VtkXml::only(const pugi::xml_node& parent, const char* name) const {
+  const pugi::xml_node first = parent.child(name);
+  if (first && first.next_sibling(name)) fail(parent, fmt::format("has two elements {}; expected one", name));
+  return first;
 }
 
 std::string VtkXml::type_of(const pugi::xml_node& array) const { return array.attribute("type").value(); }
@@ -164,7 +170,19 @@ bool VtkXml::is_text(const pugi::xml_node& array) const {
   return format.empty() || format == "ascii";
 }
 
-std::string_view VtkXml::text_of(const pugi::xml_node& array) const { return array.text().get(); }
+/// A comment or element within would divide it, and a part be missed.
+std::string_view VtkXml::text_of(const pugi::xml_node& array) const {
+  std::string_view text;
+  for (const pugi::xml_node part : array.children()) {
+    const bool key = part.type() == pugi::node_element && std::string_view(part.name()) == "InformationKey";
+    if (key || part.type() == pugi::node_comment) continue;
+    if (part.type() != pugi::node_pcdata || !text.empty()) {
+      fail(array, "has more than one text in it; expected numbers alone");
+    }
+    text = part.value();
+  }
+  return text;
+}
 
 std::string VtkXml::bytes_of(const pugi::xml_node& array) const {
   const std::string_view format = array.attribute("format").value();
@@ -187,7 +205,20 @@ std::string VtkXml::bytes_of(const pugi::xml_node& array) const {
       return long_headers_ ? from_bytes<std::uint64_t>(raw.data(), big_endian_)
                            : from_bytes<std::uint32_t>(raw.data(), big_endian_);
     };
-    if (!compressed_) return bytes.take(header());
+    // Real coordinates do not shrink to a hundredth.
+    constexpr std::uint64_t small = std::uint64_t{1} << 28, most_fold = 100;
+    const auto count = [&](std::uint64_t more) {
+      unpacked_ += more;
+      if (unpacked_ < more || unpacked_ > small + most_fold * file_bytes_) {
+        throw Damaged{"unpacks to more than a hundred times the file"};
+      }
+    };
+    if (!compressed_) {
+      const std::uint64_t length = header();
+      std::string all = bytes.take(length);
+      count(all.size());
+      return all;
+    }
     const std::uint64_t blocks = header(), size = header(), last = header();
     if (blocks > from.size()) throw Damaged{fmt::format("announces {} compressed blocks", blocks)};
     std::vector<std::uint64_t> sizes;
@@ -195,7 +226,9 @@ std::string VtkXml::bytes_of(const pugi::xml_node& array) const {
     std::string all;
     for (std::uint64_t i = 0; i < blocks; ++i) {
       end_if_stopped();
-      all += inflated(bytes.take(sizes[i]), i + 1 == blocks && last > 0 ? last : size);
+      const std::uint64_t unpacked = i + 1 == blocks && last > 0 ? last : size;
+      count(unpacked);
+      all += inflated(bytes.take(sizes[i]), unpacked);
     }
     return all;
   } catch (const Damaged& damaged) {
@@ -212,6 +245,7 @@ std::vector<Number> VtkXml::converted(const pugi::xml_node& array) const {
     for (std::size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
       const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
       const std::string_view word = text.substr(begin, end - begin);
+      if (result.size() % 4096 == 0) end_if_stopped();
       From value{};
       if constexpr (std::is_floating_point_v<From>) {
         const std::string problem = parse_finite(word, value);
@@ -237,6 +271,7 @@ std::vector<Number> VtkXml::converted(const pugi::xml_node& array) const {
     fail(array, fmt::format("has {} bytes, no multiple of {}", bytes.size(), sizeof(From)));
   result.reserve(bytes.size() / sizeof(From));
   for (std::size_t at = 0; at < bytes.size(); at += sizeof(From)) {
+    if (at % (std::size_t{1} << 16) == 0) end_if_stopped();
     const auto value = from_bytes<From>(bytes.data() + at, big_endian_);
     if constexpr (std::is_same_v<From, std::uint64_t>) {
       if (value > std::uint64_t{INT64_MAX}) fail(array, fmt::format("has the number {}", value));

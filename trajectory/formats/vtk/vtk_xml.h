@@ -30,6 +30,8 @@ class VtkXml {
 
   /// "Float64", ...: of a DataArray.
   std::string type_of(const pugi::xml_node& array) const;
+  /// The only element of this name; none if there is none. Throws InputError for two of them.
+  pugi::xml_node only(const pugi::xml_node& parent, const char* name) const;
   /// Whether its numbers are text; that text.
   bool is_text(const pugi::xml_node& array) const;
   std::string_view text_of(const pugi::xml_node& array) const;
@@ -44,7 +46,9 @@ class VtkXml {
   std::vector<Number> converted(const pugi::xml_node& array) const;
 
   std::string file_;
-  std::string_view appended_;  ///< behind the underscore
+  std::uint64_t file_bytes_ = 0;
+  mutable std::uint64_t unpacked_ = 0;  ///< bytes of all arrays that were decoded so far
+  std::string_view appended_;           ///< behind the underscore
   bool appended_raw_ = false, big_endian_ = false, long_headers_ = false, compressed_ = false;
   pugi::xml_document document_;
   pugi::xml_node content_;

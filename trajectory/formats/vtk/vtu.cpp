@@ -39,6 +39,8 @@ class VtkMesh {
       : xml_(bytes, file, mesh_types), polygons_(polygons) {}
 
   Frame read() {
+    if (xml_.content().attribute("TimeValues"))
+      xml_.fail(xml_.content(), "has several times; expected one frame a file");
     for (const pugi::xml_node piece : xml_.content().children("Piece")) read_piece(piece);
     drop_redundant_cells(frame_.mesh);
     return std::move(frame_);
@@ -50,32 +52,58 @@ class VtkMesh {
     first_ = frame_.positions.size();
     read_points(piece);
     if (std::string_view(xml_.content().name()) == "UnstructuredGrid") {
-      const pugi::xml_node cells = piece.child("Cells");
+      const pugi::xml_node cells = xml_.only(piece, "Cells");
       const auto types = xml_.integers(named(cells, "types"));
+      require_count(cells, types.size(), piece, "NumberOfCells");
       read_cells(
           cells, [&](std::size_t i) { return types[i]; }, types.size());
       return;
     }
-    for (const auto& [name, type] : {std::pair{"Verts", vtk_poly_vertex},
-                                     {"Lines", vtk_poly_line},
-                                     {"Strips", vtk_triangle_strip},
-                                     {"Polys", vtk_polygon}}) {
-      const pugi::xml_node cells = piece.child(name);
-      if (!cells.child("DataArray")) continue;
-      read_cells(
-          cells, [t = type](std::size_t) { return std::int64_t{t}; }, std::nullopt);
+    for (const Kind& kind : kinds) {
+      const pugi::xml_node cells = xml_.only(piece, kind.name);
+      if (!cells || !cells.child("DataArray")) {
+        require_count(cells ? cells : piece, 0, piece, kind.count);
+        continue;
+      }
+      const std::size_t there = read_cells(
+          cells, [&](std::size_t) { return std::int64_t{kind.type}; }, std::nullopt);
+      require_count(cells, there, piece, kind.count);
     }
   }
 
+  /// The cells of polygonal data.
+  struct Kind {
+    const char *name, *count;
+    VtkCell type;
+  };
+  static constexpr std::array<Kind, 4> kinds = {{{"Verts", "NumberOfVerts", vtk_poly_vertex},
+                                                 {"Lines", "NumberOfLines", vtk_poly_line},
+                                                 {"Strips", "NumberOfStrips", vtk_triangle_strip},
+                                                 {"Polys", "NumberOfPolys", vtk_polygon}}};
+
+  /// A piece says how many cells it has; some writers leave out those of a kind that it has none of.
+  void require_count(const pugi::xml_node& where, std::size_t there, const pugi::xml_node& piece,
+                     const char* what) const {
+    const std::uint64_t count = piece.attribute(what) ? announced(piece, what) : 0;
+    if (there != count) xml_.fail(where, fmt::format("has {} cells, but {} is {}", there, what, count));
+  }
+
   pugi::xml_node named(const pugi::xml_node& parent, const char* name) const {
-    const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
+    pugi::xml_node array;
+    for (const pugi::xml_node one : parent.children("DataArray")) {
+      if (std::string_view(one.attribute("Name").value()) != name) continue;
+      if (array) xml_.fail(array, "is there twice");
+      if (one.attribute("TimeStep")) xml_.fail(one, "is of one of several times; expected one frame a file");
+      array = one;
+    }
     if (!array) throw InputError(xml_.file(), parent.name(), fmt::format("has no DataArray {}", in_quotes(name)));
     return array;
   }
 
   void read_points(const pugi::xml_node& piece) {
-    const pugi::xml_node array = piece.child("Points").child("DataArray");
+    const pugi::xml_node array = xml_.only(xml_.only(piece, "Points"), "DataArray");
     if (!array) throw InputError(xml_.file(), "Points", "has no DataArray");
+    if (array.attribute("TimeStep")) xml_.fail(array, "is of one of several times; expected one frame a file");
     const std::vector<double> numbers = xml_.reals(array);
     const auto count = announced(piece, "NumberOfPoints");
     if (numbers.size() % 3 != 0 || numbers.size() / 3 != count) {
@@ -101,8 +129,9 @@ class VtkMesh {
     return count;
   }
 
+  /// How many cells there are.
   template <class TypeOf>
-  void read_cells(const pugi::xml_node& cells, const TypeOf& type_of, std::optional<std::size_t> count) {
+  std::size_t read_cells(const pugi::xml_node& cells, const TypeOf& type_of, std::optional<std::size_t> count) {
     const pugi::xml_node ends = named(cells, "offsets");
     const std::vector<std::int64_t> offsets = xml_.integers(ends);
     const std::vector<std::int64_t> corners = xml_.integers(named(cells, "connectivity"));
@@ -110,6 +139,7 @@ class VtkMesh {
       xml_.fail(ends, fmt::format("has {} numbers for {} cells", offsets.size(), *count));
     std::int64_t begin = 0;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (i % 4096 == 0) end_if_stopped();
       const std::int64_t end = offsets[i];
       if (end < begin || end > static_cast<std::int64_t>(corners.size())) {
         xml_.fail(ends, fmt::format("cell {} ends at {} of {} corners", i, end, corners.size()));
@@ -120,6 +150,10 @@ class VtkMesh {
       add_cell(cells, i, type_of(i));
       begin = end;
     }
+    if (begin != static_cast<std::int64_t>(corners.size())) {
+      xml_.fail(ends, fmt::format("the last cell ends at {} of {} corners", begin, corners.size()));
+    }
+    return offsets.size();
   }
 
   VertexId vertex(const pugi::xml_node& cells, std::int64_t v) const {
