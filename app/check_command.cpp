@@ -199,6 +199,7 @@ ExitCode run(CheckArguments& arguments) {
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
   std::vector<fs::path> inputs = files_named(arguments.files);
+  inputs.insert(inputs.end(), arguments.files.begin(), arguments.files.end());
   inputs.insert(inputs.end(), ordered.frames.begin(), ordered.frames.end());
   if (arguments.claim) inputs.push_back(*arguments.claim);
   const Output output(arguments.results, inputs);

@@ -211,9 +211,13 @@ class Report {
 
   /// As the result says, unless told otherwise.
   FrameReading reading() const {
-    FrameReading reading = report::reading_of(verified_->json);
-    if (!arguments_.reading.keys.empty()) reading.keys = arguments_.reading.keys;
-    return reading;
+    try {
+      FrameReading reading = report::reading_of(verified_->json);
+      if (!arguments_.reading.keys.empty()) reading.keys = arguments_.reading.keys;
+      return reading;
+    } catch (const Json::exception&) {
+      throw InputError(verified_->path.string(), "", "is not as `noli verify --json` writes it");
+    }
   }
 
   void put_verdict_of_verify() {

@@ -16,7 +16,7 @@
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/write_obj.h"
 #include "trajectory/formats/write_ply.h"
-#include "trajectory/formats/write_vtu.h"
+#include "trajectory/formats/vtk/write_vtu.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 

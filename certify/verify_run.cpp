@@ -344,7 +344,7 @@ class SequenceVerification : private Verification {
     if (trajectory_ && !trajectory_->finished()) {
       outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
     }
-    outcome_.inputs = source_->facts();
+    outcome_.inputs = source_->take_facts();
   }
 
   /// Of a source that does not say how many frames it has.

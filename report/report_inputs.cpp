@@ -31,11 +31,11 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "..
 FrameReading reading_of(const Json& result) {
   const Json& statement = result.at("statement");
   FrameReading reading;
-  const Json& inputs = result.at("inputs");
+  const Json inputs = result.value("inputs", Json::array());
   if (inputs.size() == 1) reading.keys = inputs[0].value("arrays", Json::array()).get<std::vector<std::string>>();
   for (const Json& body : statement.value("bodies", Json::array())) {
     BodyFrames frames{body.at("name").get<std::string>(), {}, body.at("still").get<bool>()};
-    for (const Json& input : result.at("inputs")) {
+    for (const Json& input : inputs) {
       if (member(input, "body") == frames.name) frames.frames.emplace_back(member(input, "file"));
     }
     reading.bodies.push_back(std::move(frames));

@@ -22,7 +22,7 @@
 #include "report/report_results.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/open_frames.h"
-#include "trajectory/formats/write_vtu.h"
+#include "trajectory/formats/vtk/write_vtu.h"
 #include "trajectory/sample.h"
 #include "trajectory/write_file.h"
 

@@ -131,7 +131,7 @@ TEST_F(Bodies, AreRefusedWhenTheyDoNotGoTogether) {
   expect_refused({"verify", "--body", shirt, "--obstacle", folder.path("man_*.ply")}, "expected one of an obstacle");
   expect_refused({"verify", "--obstacle", folder.path("floor.ply")}, "--body");
   expect_refused({"verify", "--body", shirt, folder.path("floor.ply")}, "--body");
-  expect_refused({"verify"}, "expected frames, bodies (--body) or the folder of a run");
+  expect_refused({"verify"}, "needs FRAMES, bodies (--body) or the folder of a run");
   folder.write("shirt_2.ply", ply_text(man(2), {{0, 1, 2}, {3, 5, 4}}));
   expect_refused(Words{"verify"} + bodies(), "shirt_2.ply");
 }

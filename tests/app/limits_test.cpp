@@ -180,7 +180,7 @@ TEST_F(Limits, AnExportEndsAndSaysSo) {
                                                }(),
                                                interrupt_after(200))}) {
     EXPECT_EQ(end.process.exit_code, 2) << end.process.err;
-    EXPECT_NE(end.process.out.find("complete false"), std::string::npos) << end.process.out;
+    EXPECT_NE(end.process.out.find("INTERRUPTED  "), std::string::npos) << end.process.out;
     EXPECT_LT(end.seconds, soon);
   }
 }

@@ -276,7 +276,9 @@ TEST(Frames, OfABlockFile) {
   EXPECT_REJECTED(of(groups), "expected the end");
   groups[2] = {{"ENDP", raw(1.0)}};
   EXPECT_REJECTED(of(groups), "expected a block FRAM");
-  groups[2] = {{"FRAM", raw(1.0) + raw(std::numeric_limits<double>::infinity())}};
+  std::string far = groups[1][0].second.substr(8);
+  far.replace(0, 8, raw(std::numeric_limits<double>::infinity()));
+  groups[2] = {{"FRAM", raw(1.0) + far}};
   EXPECT_REJECTED(of(groups), "finite");
   groups[0] = {{"MESH", raw(std::uint64_t{1} << 32) + raw(std::array<std::uint64_t, 3>{})}};
   EXPECT_REJECTED(of(groups), "more is announced here than is left");

@@ -8,7 +8,7 @@
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/vtk/pvd.h"
 #include "trajectory/formats/vtk/vtu.h"
-#include "trajectory/formats/write_vtu.h"
+#include "trajectory/formats/vtk/write_vtu.h"
 
 namespace noli {
 namespace {

@@ -47,6 +47,7 @@ class FrameInputs : public FrameSource {
 
   /// One per frame.
   const std::vector<FrameFacts>& facts() const override { return facts_; }
+  std::vector<FrameFacts> take_facts() override { return std::move(facts_); }
   /// How many polygons of more than three corners a frame has at most, and their largest non-planarity (polygons.h) in
   /// all frames that were read.
   std::size_t polygons() const { return polygons_; }

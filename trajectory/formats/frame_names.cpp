@@ -135,7 +135,8 @@ Paths files_named(const Paths& given) {
   Paths files;
   for (const fs::path& name : given) {
     const std::string text = name.string();
-    files.push_back(text.starts_with('@') ? fs::path(text.substr(1)) : name);
+    if (text.starts_with('@')) files.emplace_back(text.substr(1));
+    if (extension_of(name) == ".pvd") files.push_back(name);
   }
   return files;
 }

@@ -21,7 +21,7 @@ namespace noli {
 /// InputError: nothing matches, a folder has frames of several formats, a list cannot be read or names nothing.
 std::vector<std::filesystem::path> named_frames(const std::vector<std::filesystem::path>& given);
 
-/// The files that are read to find out which frames are named: lists without their @, series, and all others as given.
+/// The files that are read to find out which frames are named: lists, without their @, and series.
 std::vector<std::filesystem::path> files_named(const std::vector<std::filesystem::path>& given);
 
 }  // namespace noli

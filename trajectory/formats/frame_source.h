@@ -44,6 +44,8 @@ class FrameSource {
 
   /// What was looked at, in the order of time: one per file.
   virtual const std::vector<FrameFacts>& facts() const = 0;
+  /// Gives them away, which may be many; the source is of no more use.
+  virtual std::vector<FrameFacts> take_facts() { return facts(); }
   /// Where bodies are in the mesh, once a frame has been read; empty where they have no names.
   virtual std::vector<FrameBody> bodies() const { return {}; }
   /// What to know of the numbers, a line each.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trajectory/formats/write_vtu.h"
+#include "trajectory/formats/vtk/write_vtu.h"
 
 #include <fmt/format.h>
 
