@@ -180,7 +180,8 @@ void name_frames(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   arguments.given = files_named(request.frames);
   if (request.frames.empty() && !arguments.bodies.any()) {
-    throw UsageError("`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` says more");
+    throw UsageError(
+        "`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` says more");
   }
   if (!arguments.bodies.any()) {
     request.frames = named_frames(request.frames);

@@ -14,9 +14,9 @@
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
 #include "trajectory/blocks/run_file.h"
+#include "trajectory/formats/vtk/write_vtu.h"
 #include "trajectory/formats/write_obj.h"
 #include "trajectory/formats/write_ply.h"
-#include "trajectory/formats/vtk/write_vtu.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 

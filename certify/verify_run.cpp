@@ -45,8 +45,8 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
-/// The file of --trajectory. Until all frames are in it, it has another name that nobody has, so that no checker takes a
-/// part for the whole; what was not finished vanishes.
+/// The file of --trajectory. Until all frames are in it, it has a name of its own, so that no checker takes a part for
+/// the whole. An unfinished file vanishes.
 class TrajectoryFile {
  public:
   TrajectoryFile(std::filesystem::path file, const Mesh& mesh)

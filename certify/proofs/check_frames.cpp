@@ -79,8 +79,8 @@ std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frame
   CheckerProcess checker(request);
   const std::optional<CheckerVerdict> verdict = checker.finish();
   const std::exception_ptr fault = giving.join();
-  // A witness refutes whatever follows. What was accepted is about all steps, of which the checker saw a part, unless the
-  // steps that are asked for are named.
+  // A witness refutes whatever follows. What was accepted is about all steps, and the checker saw only some, unless the
+  // request names the steps.
   const bool named =
       std::ranges::any_of(request.asked, [](const std::string& word) { return word.starts_with("steps="); });
   const bool settled = verdict && (verdict->code == 1 || (verdict->code == 0 && named));

@@ -7,8 +7,8 @@
 //   VerifyOutcome outcome = run_verify(request);
 //   route.check(outcome);                             // "no contact" becomes "proved"
 //
-// With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to be
-// taken back. So does that of a run that is being written: how many windows it has is known at the end.
+// With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
+// be taken back. So does that of a run that is being written: how many windows it has is known at the end.
 #pragma once
 
 #include <filesystem>

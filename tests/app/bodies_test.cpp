@@ -58,7 +58,8 @@ class Bodies : public testing::Test {
   /// Without what tells bodies, and what differs from run to run.
   static Json without(Json json) {
     if (json.is_object()) {
-      for (const char* const member : {"inputs", "notes", "timing", "order", "bodies", "own", "proof"}) json.erase(member);
+      for (const char* const member : {"inputs", "notes", "timing", "order", "bodies", "own", "proof"})
+        json.erase(member);
     }
     for (Json& part : json) {
       if (part.is_structured()) part = without(part);

@@ -94,7 +94,7 @@ NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
   require_end_of_directory(archive.get());
 }
 
-/// The directory goes up to its end record, which is the end of the file: then no entry is missed, and no other directory
+/// The directory goes up to its end record, which is the end of the file: so no entry is missed, and no other directory
 /// is hidden in a comment.
 void NpzFile::require_end_of_directory(void* archive) const {
   unz_global_info64 all;
