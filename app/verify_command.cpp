@@ -184,7 +184,7 @@ void name_frames(VerifyArguments& arguments) {
         "`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` says more");
   }
   if (!arguments.bodies.any()) {
-    request.frames = named_frames(request.frames);
+    request.frames = named_frames(std::move(request.frames));
     return;
   }
   request.reading.bodies = bodies_of(arguments.bodies, request.order, request.order_notes);
@@ -243,7 +243,8 @@ ExitCode run(VerifyArguments& arguments) {
   if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
   // The JSON of 10,000 frames takes more memory than all else.
   Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
-  output.write("verify", report::verify_answer(request, outcome, arguments.results.json.value_or("")), std::move(json));
+  const report::WordsWanted wanted{arguments.results.json.value_or(""), arguments.results.verbose};
+  output.write("verify", report::verify_answer(request, outcome, wanted), std::move(json));
   return exit_code(outcome.verdict);
 }
 

@@ -48,7 +48,8 @@ void Verification::add(const Findings& found, std::optional<ListedContact> first
   if (!outcome_.first) outcome_.first = first;
   if (goes_on) first.reset();  // it may be a contact that goes on
   listed_.add(step, first, found.reports, exactly, [this] { return stopped(); });
-  outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on, std::move(first)});
+  outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on,
+                            first ? std::make_shared<ListedContact>(std::move(*first)) : nullptr});
   for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += found.contacts[i];
   outcome_.initial_intersections += found.initial_intersections;
   outcome_.stages += found.stages;

@@ -12,7 +12,6 @@
 #include "kernel/parallel.h"
 #include "report/input_report.h"
 #include "report/verify_statement.h"
-#include "report/verify_words.h"
 
 namespace noli::report {
 namespace {
@@ -140,10 +139,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return json;
 }
 
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result) {
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted) {
   Answer answer(name(outcome.verdict));
   add_pairs(outcome, answer);
-  put_words(request, outcome, result, answer);
+  put_words(request, outcome, std::move(wanted), answer);
   return answer;
 }
 

@@ -8,6 +8,7 @@
 #include <noli/verify.h>
 #include "certify/json.h"
 #include "report/answer.h"
+#include "report/verify_words.h"
 
 namespace noli::report {
 
@@ -17,8 +18,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 
 /// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step,
 /// a time and two features.
-/// `result`: the file to which the JSON goes, for the advice on what to do next; or nothing.
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result = "");
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted = {});
 
 /// How many pairs each stage decided, and obligations and pairs of cells.
 Json work_json(const VerifyOutcome& outcome);

@@ -42,8 +42,8 @@ std::string why_ended(const RunEnding& ending) {
 
 class Words {
  public:
-  Words(const VerifyRequest& request, const VerifyOutcome& outcome, std::string result, Answer& answer)
-      : request_(request), outcome_(outcome), result_(std::move(result)), answer_(answer) {}
+  Words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer)
+      : request_(request), outcome_(outcome), wanted_(std::move(wanted)), answer_(answer) {}
 
   void operator()() {
     contacts();
@@ -53,8 +53,10 @@ class Words {
     check_again();
     looked_at();
     answer_.text += notes_text(outcome_.notes);
-    statement();
-    work();
+    if (wanted_.details) {
+      statement();
+      work();
+    }
     answer_.place = place_of(request_, outcome_);
     answer_.next = next();
   }
@@ -66,7 +68,15 @@ class Words {
   }
   template <class... Args>
   void detail(fmt::format_string<Args...> format, Args&&... args) {
-    answer_.details += fmt::format(format, std::forward<Args>(args)...) + '\n';
+    if (wanted_.details) answer_.details += fmt::format(format, std::forward<Args>(args)...) + '\n';
+  }
+
+  /// The first `most` rows of a list are text, the others are details.
+  void listed(std::size_t i, std::size_t most, const std::string& row) {
+    if (i < most)
+      answer_.text += row;
+    else if (wanted_.details)
+      answer_.details += row;
   }
 
   void contacts() {
@@ -91,8 +101,7 @@ class Words {
       frames_width = std::max(frames_width, columns(step_frames(request_, outcome_, k + 1)));
       rows.push_back(k);
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      (i < most_rows ? answer_.text : answer_.details) += row(rows[i], frames_width);
+    for (std::size_t i = 0; i < rows.size(); ++i) listed(i, most_rows, row(rows[i], frames_width));
     if (rows.size() > most_rows) line("  ... and {} more (-v)", rows.size() - most_rows);
   }
 
@@ -128,9 +137,8 @@ class Words {
     const std::size_t shown = std::min(most_intersections, outcome_.initial_reports.size());
     for (std::size_t i = 0; i < outcome_.initial_reports.size(); ++i) {
       const auto& [step, pair] = outcome_.initial_reports[i];
-      const std::string text =
-          fmt::format("  {} {}: cells {} and {}\n", step_word(request_), step, pair.first_cell, pair.second_cell);
-      (i < shown ? answer_.text : answer_.details) += text;
+      listed(i, shown,
+             fmt::format("  {} {}: cells {} and {}\n", step_word(request_), step, pair.first_cell, pair.second_cell));
     }
     const auto left_out = outcome_.initial_intersections - shown;
     if (left_out > 0) line("  ... and {} more (-v, --max-reports)", left_out);
@@ -240,9 +248,9 @@ class Words {
   std::string after_contact() const {
     const bool more = !request_.keep_going && outcome_.steps.size() < outcome_.steps_total;
     const std::string steps = more ? "; --keep-going counts the contacts of all steps" : "";
-    const std::string result = result_.empty() ? "result.json" : shell_words({result_});
+    const std::string result = wanted_.result.empty() ? "result.json" : shell_words({wanted_.result});
     return fmt::format("{}noli export {} -o first.png is a picture of it{}.",
-                       result_.empty() ? "--json result.json keeps the result, and " : "", result, steps);
+                       wanted_.result.empty() ? "--json result.json keeps the result, and " : "", result, steps);
   }
 
   std::string after_stop() const {
@@ -284,14 +292,14 @@ class Words {
 
   const VerifyRequest& request_;
   const VerifyOutcome& outcome_;
-  std::string result_;  ///< the file that the result is written to, or nothing
+  WordsWanted wanted_;
   Answer& answer_;
 };
 
 }  // namespace
 
-void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result, Answer& answer) {
-  Words(request, outcome, result, answer)();
+void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer) {
+  Words(request, outcome, std::move(wanted), answer)();
 }
 
 }  // namespace noli::report

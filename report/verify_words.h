@@ -10,7 +10,13 @@
 
 namespace noli::report {
 
-/// Fills in text, details, next step and place. `result`: the file that the result is written to, or nothing.
-void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, const std::string& result, Answer& answer);
+/// What is to be said besides the verdict.
+struct WordsWanted {
+  std::string result;    ///< the file that the result is written to, for the advice on what to do next; or nothing
+  bool details = false;  ///< those that --verbose shows: of 10,000 frames, they are megabytes
+};
+
+/// Fills in text, details, next step and place.
+void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer);
 
 }  // namespace noli::report
