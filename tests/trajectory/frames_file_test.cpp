@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include <noli/errors.h>
 #include "support.h"
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/open_frames.h"
@@ -70,6 +71,15 @@ TEST_F(FramesFile, IsASourceOfFrames) {
   EXPECT_EQ(bits(source->read(3).value().positions), bits(frame(3)));
   EXPECT_FALSE(source->read(4));
   EXPECT_EQ(bits(source->read(0).value().positions), bits(frame(0))) << "once more";
+}
+
+TEST_F(FramesFile, HasNoArraysToName) {
+  write(2);
+  const FrameReading keys = {.keys = {"x"}};
+  EXPECT_THROW(open_frames({path()}, keys), UsageError);
+  EXPECT_THROW(open_frames({"-"}, keys), UsageError);
+  EXPECT_THROW(open_frames({folder / "a.ply"}, keys), UsageError);
+  EXPECT_NO_THROW(open_frames({path()}));
 }
 
 TEST_F(FramesFile, OneThatChangesMeanwhileIsRefused) {

@@ -22,6 +22,10 @@ bool holds_frames(const std::filesystem::path& path) {
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
   if (!reading.bodies.empty()) return std::make_unique<JoinedFrames>(reading.bodies, reading);
+  const bool arrays = !names.empty() && is_array_name(names[0]);
+  if (!reading.keys.empty() && !arrays) {
+    throw UsageError("--keys: names arrays of a .npz file; expected one, or no --keys");
+  }
   const auto dash = std::ranges::find(names, "-");
   if (dash != names.end()) {
     if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no file beside it");
@@ -30,8 +34,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);
   }
-  if (!names.empty() && is_array_name(names[0])) return std::make_unique<ArrayFrames>(names, reading.keys);
-  if (!reading.keys.empty()) throw UsageError("--keys: names arrays of a .npz file; expected one, or no --keys");
+  if (arrays) return std::make_unique<ArrayFrames>(names, reading.keys);
   return std::make_unique<FrameInputs>(names, reading.polygons);
 }
 
