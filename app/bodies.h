@@ -19,7 +19,7 @@ struct BodyWords {
   bool any() const { return !bodies.empty() || !obstacles.empty(); }
 };
 
-/// `frames`: the option that names frames of one mesh, which goes with neither; nullptr: there is none.
+/// `frames`: the option that names frames of one mesh, which goes with neither; nullptr for a command without it.
 void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames);
 
 /// The bodies with their files, each in the order that is asked for. Notes on the order are added to `notes`. Throws

@@ -34,7 +34,7 @@ class BodyNames {
   /// Whether there are any bodies.
   bool known() const { return !bodies_.empty(); }
   const std::vector<Body>& bodies() const { return bodies_; }
-  /// The body that has a vertex; nullptr if there is none.
+  /// The body that has a vertex; nullptr for a vertex without a body.
   const Body* body_of(VertexId v) const;
   /// The bodies that have any of these vertices, in the order of bodies; vertices without a body are ignored.
   std::vector<std::string> bodies_of(std::span<const VertexId> vertices) const;

@@ -307,7 +307,7 @@ class Engine {
     }
   }
 
-  /// Runs the next event, or the next few. False if there is none up to `end`. Events at one time have this order:
+  /// Runs the next event, or the next few. False if all are later than `end`. Events at one time have this order:
   /// breakpoints of scripts, certificates, slots, gravity on struck vertices, forces with clocks of their own, layers
   /// of contact.
   template <class Recorder>

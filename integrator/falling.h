@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gravity. It acts on a vertex together with the vertex's forces, and has a clock of its own only if there are none.
+// Gravity. It acts on a vertex together with the vertex's other forces. At vertices on which no other force acts, it
+// has a clock of its own.
 //
 // Notation
 //   h      step of gravity at a vertex: the shortest step of the forces on it, but at most gravity's own step

@@ -39,8 +39,8 @@ integrator::Snapshot<double, Dim> snapshot_of(const RunWindow& window, const Win
           state.anchors};
 }
 
-/// A simulation at a snapshot, or at the beginning if there is none; with contact, the steps of its layers are halved
-/// `halvings` times.
+/// A simulation that goes on from a snapshot, or begins if the snapshot is of no window. With contact, the steps of its
+/// layers are halved `halvings` times.
 template <int Dim>
 integrator::Simulation<double, Dim> simulation_at(const integrator::Model<double, Dim>& model,
                                                   const integrator::Snapshot<double, Dim>& snapshot,

@@ -16,7 +16,8 @@
 //   order     names of a family compare by their first number, then by the second, and so on. Numbers of folders come
 //             before those of the file's own name
 //
-// Formats: PLY (ASCII and binary) and OBJ. Coordinates keep the unit of the file.
+// Formats: PLY (ASCII and binary), OBJ, VTU and VTP. Arrays of numpy and files of frames have the positions of many
+// frames. Coordinates keep the unit of the file.
 // Errors: as each function says. Thread safety: any thread; there is no state. Nothing here opens a file.
 #pragma once
 
@@ -69,7 +70,7 @@ struct FrameBody {
 struct FrameReading {
   PolygonRule polygons = PolygonRule::fan;
   std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
-  std::vector<BodyFrames> bodies = {};  ///< joined into one mesh, instead of frames of one; empty: there are none
+  std::vector<BodyFrames> bodies = {};  ///< joined into one mesh; empty for frames of one mesh
 };
 
 /// What was read of a frame.

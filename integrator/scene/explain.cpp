@@ -22,7 +22,7 @@ class Survey {
  public:
   Survey(const Scene& scene, Explanation& explanation) : scene_(scene), out_(explanation) {}
 
-  /// `count` forces of this kind act; `why_not`: the reason if there are none.
+  /// `count` forces of this kind act; `why_not`: the reason when it is zero.
   void forces(std::size_t count, const std::string& what, const std::string& why_not) {
     say(count > 0, fmt::format("{} {}", count, what), what, why_not);
   }
