@@ -41,6 +41,12 @@ std::string in_quotes(std::string_view word) {
   return shown + (word.size() > longest ? "...'" : "'");
 }
 
+std::string message_without_name(std::string_view message, std::string_view name) {
+  const std::string begin = on_one_line(name) + ": ";
+  if (message.starts_with(begin)) message.remove_prefix(begin.size());
+  return std::string(message);
+}
+
 std::string first_complaint(std::string_view text) {
   Lines lines(text);
   for (std::string_view line; lines.next(line);) {

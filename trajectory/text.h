@@ -27,6 +27,9 @@ std::string in_quotes(std::string_view word);
 /// The text before the first line end.
 inline std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
+/// The message of an InputError without the name of the file that it is about.
+std::string message_without_name(std::string_view message, std::string_view name);
+
 /// The first line of a program's standard error that is not a note ("noli: note: ..."); a note if all lines are.
 std::string first_complaint(std::string_view text);
 

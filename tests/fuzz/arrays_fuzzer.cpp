@@ -7,26 +7,13 @@
 #include <memory>
 
 #include "check_frame.h"
+#include "tests/support/text_bytes.h"
 #include "trajectory/formats/arrays/array_frames.h"
 #include "trajectory/formats/arrays/stream_frames.h"
 
 namespace {
 
 using noli::fuzz::require;
-
-class TextBytes : public noli::ByteStream {
- public:
-  explicit TextBytes(std::string_view text) : rest_(text) {}
-  std::size_t read(char* to, std::size_t size) override {
-    const std::size_t part = std::min(size, rest_.size());
-    rest_.copy(to, part);
-    rest_.remove_prefix(part);
-    return part;
-  }
-
- private:
-  std::string_view rest_;
-};
 
 /// A file in memory, by a name that ends so.
 class MemoryFile {
@@ -66,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     if (data[0] == 'S') {
-      noli::StreamFrames source(std::make_unique<TextBytes>(bytes));
+      noli::StreamFrames source(std::make_unique<noli::test::TextBytes>(std::string(bytes), size));
       check_all(source);
     } else if (data[0] == 'Z' || data[0] == 'N') {
       const MemoryFile file(bytes, data[0] == 'Z' ? ".npz" : ".npy");

@@ -8,6 +8,7 @@
 
 #include "support.h"
 #include "tests/support/numpy.h"
+#include "tests/support/text_bytes.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/arrays/stream_frames.h"
 #include "trajectory/formats/open_frames.h"
@@ -263,22 +264,7 @@ TEST_F(Arrays, WithAFlippedBitAreRefused) {
 
 // --- standard input --------------------------------------------------------------------------------------------------
 
-class TextStream : public ByteStream {
- public:
-  explicit TextStream(std::string text) : text_(std::move(text)) {}
-  std::size_t read(char* to, std::size_t size) override {
-    const std::size_t part = std::min(size, text_.size() - at_);
-    text_.copy(to, part, at_);
-    at_ += part;
-    return part;
-  }
-
- private:
-  std::string text_;
-  std::size_t at_ = 0;
-};
-
-StreamFrames stream(const std::string& text) { return StreamFrames(std::make_unique<TextStream>(text)); }
+StreamFrames stream(const std::string& text) { return StreamFrames(std::make_unique<test::TextBytes>(text)); }
 
 std::string all_frames() {
   std::string text;

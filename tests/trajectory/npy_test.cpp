@@ -8,6 +8,7 @@
 
 #include "support.h"
 #include "tests/support/numpy.h"
+#include "tests/support/text_bytes.h"
 #include "trajectory/formats/arrays/array_values.h"
 
 namespace noli {
@@ -15,23 +16,8 @@ namespace {
 
 using test::npy;
 using test::NumpyArray;
+using test::TextBytes;
 using testing::input_error;
-
-/// A text, a few bytes at a time.
-class TextBytes : public ByteStream {
- public:
-  explicit TextBytes(std::string text) : text_(std::move(text)) {}
-  std::size_t read(char* to, std::size_t size) override {
-    const std::size_t part = std::min({size, std::size_t{7}, text_.size() - at_});
-    text_.copy(to, part, at_);
-    at_ += part;
-    return part;
-  }
-
- private:
-  std::string text_;
-  std::size_t at_ = 0;
-};
 
 template <class Number>
 std::vector<Number> read(const std::string& bytes, std::string* type = nullptr) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr FourLetters frames_content = four_letters("FRMS");
 
-/// Magic, version and content; empty where there is none.
+/// Magic, version and content; empty for what is no file, or too short.
 std::string head_of(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return "";
@@ -87,7 +87,7 @@ void FramesWriter::append(std::span<const Position> positions) {
   ++frames_;
 }
 
-void FramesWriter::finish() { static_cast<Unsynced*>(sink_)->finish(); }
+void FramesWriter::finish() { sink_->finish(); }
 
 FramesReader::FramesReader(const std::filesystem::path& path) : blocks_(path, frames_content) {
   const auto mesh = read(run_kind::mesh);

@@ -41,7 +41,7 @@ class FramesWriter {
   class Unsynced;
 
   std::size_t vertices_;
-  Sink* sink_;  ///< of blocks_
+  Unsynced* sink_;  ///< of blocks_
   BlockWriter blocks_;
   std::uint64_t frames_ = 0;
 };

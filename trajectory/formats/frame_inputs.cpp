@@ -17,10 +17,7 @@ namespace fs = std::filesystem;
 
 /// The same error, with the number of the frame.
 InputError of_frame(const InputError& error, const std::string& path, std::size_t k, std::size_t count) {
-  std::string problem = error.what();
-  const std::string begin = on_one_line(path) + ": ";
-  if (problem.starts_with(begin)) problem.erase(0, begin.size());
-  return {path, "", fmt::format("{} (frame {} of {})", problem, k + 1, count)};
+  return {path, "", fmt::format("{} (frame {} of {})", message_without_name(error.what(), path), k + 1, count)};
 }
 
 /// 5e-07 for k = -6: half of 10^k.

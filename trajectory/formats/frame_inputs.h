@@ -29,8 +29,7 @@ namespace noli {
 
 class FrameInputs : public FrameSource {
  public:
-  /// Throws InputError for a frame that is neither PLY nor OBJ by its extension; the message ends with "(frame 11 of
-  /// 12)".
+  /// Throws InputError for a frame whose extension is that of no format; the message ends with "(frame 11 of 12)".
   explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
 
   std::optional<std::size_t> count() const override { return facts_.size(); }

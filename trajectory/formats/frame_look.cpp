@@ -65,9 +65,9 @@ std::optional<std::uint64_t> look_at_obj(std::string_view bytes, FrameFacts& fac
 
 /// There is no short way to the cells: it is parsed.
 std::optional<std::uint64_t> look_at_vtk(std::string_view bytes, const std::string& file, FrameFacts& facts) {
-  const Mesh mesh = parse_vtk(bytes, file).mesh;
+  VtkNumbers numbers;
+  const Mesh mesh = parse_vtk(bytes, file, nullptr, &numbers).mesh;
   facts.vertices = mesh.vertex_count;
-  const VtkNumbers numbers = vtk_numbers(bytes, file);
   facts.numbers = numbers.type == "Float32" ? "float32" : "float64";
   if (!numbers.text.empty()) {
     TextDigits digits;

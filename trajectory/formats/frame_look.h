@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes a quick look at the bytes of a frame: counts, number type, and whether its cells are spelled like those of
-// another frame. It takes a small part of the time of parsing.
+// Takes a look at the bytes of a frame: counts, number type, and whether its cells are spelled like those of another
+// frame. Except for VTU and VTP it takes a small part of the time of parsing.
 //
 //   OBJ          lines that begin with v, f, l and p; the text of the last three is compared
 //   PLY, ASCII   the header, and all lines but those of vertices
 //   PLY, binary  the header, and all bytes but those of vertices
+//   VTU, VTP     all of it is parsed, and the cells are compared, however they are spelled
 //
-// It does not check coordinates and indices. Different spellings of the same cells (with texture indices, for example)
-// count as different; only parsing can tell.
+// Otherwise it does not check coordinates and indices. Different spellings of the same cells (with texture indices, for
+// example) count as different; only parsing can tell.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +35,8 @@ struct FrameLook {
 /// The hash of the bytes of a file. Throws Stopped.
 Sha256Digest frame_hash(std::string_view bytes);
 
-/// Throws InputError for a malformed header of a PLY file and for other extensions; Stopped.
+/// Throws InputError for a malformed header of a PLY file, for a malformed VTU or VTP file, and for other extensions;
+/// Stopped.
 FrameLook look_at_frame(std::string_view bytes, const std::filesystem::path& path);
 
 /// The size and hash of any file. Reads it part by part, until `stop` returns true. Throws InputError, ReadInterrupted.

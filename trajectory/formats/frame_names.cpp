@@ -5,6 +5,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,10 +112,11 @@ bool is_pattern(const fs::path& path) {
 
 }  // namespace
 
-Paths named_frames(const Paths& given) {
+Paths named_frames(Paths given) {
   Paths files;
-  const auto add = [&](const Paths& more) { files.insert(files.end(), more.begin(), more.end()); };
-  for (const fs::path& name : given) {
+  files.reserve(given.size());
+  const auto add = [&](Paths more) { std::ranges::move(more, std::back_inserter(files)); };
+  for (fs::path& name : given) {
     std::error_code error;
     if (name.string().starts_with('@')) {
       add(of_list(name.string().substr(1)));
@@ -125,7 +127,7 @@ Paths named_frames(const Paths& given) {
     } else if (!fs::exists(fs::symlink_status(name, error)) && is_pattern(name)) {
       add(of_pattern(name));
     } else {
-      files.push_back(name);
+      files.push_back(std::move(name));
     }
   }
   return files;

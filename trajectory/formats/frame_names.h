@@ -9,7 +9,7 @@
 //   @frames.txt    the lines of a file; paths are relative to its folder, and # begins a comment
 //
 // All except those of a series and a list are sorted by the numbers in their names (noli/frames.h,
-// FrameOrder::natural). A name that is there as it stands is a file, whatever letters it has.
+// FrameOrder::natural). If there is a file of a name with *, ?, [ or %, the name means that file.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace noli {
 
 /// The files, in the order in which they are named. Names of files, and of folders without frames, stay. Throws
 /// InputError: nothing matches, a folder has frames of several formats, a list cannot be read or names nothing.
-std::vector<std::filesystem::path> named_frames(const std::vector<std::filesystem::path>& given);
+std::vector<std::filesystem::path> named_frames(std::vector<std::filesystem::path> given);
 
 /// The files that are read to find out which frames are named: lists, without their @, and series.
 std::vector<std::filesystem::path> files_named(const std::vector<std::filesystem::path>& given);

@@ -17,6 +17,7 @@
 #include <noli/errors.h>
 #include "trajectory/cells.h"
 #include "trajectory/formats/ply_header.h"
+#include "trajectory/number_bytes.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -142,11 +143,8 @@ class BinarySource : public SourceBase<BinarySource<Order>> {
     last_ = at_;
     if (remaining() < sizeof(T))
       fail(fmt::format("truncated: the file ends within entry {} of {}", entry_, in_quotes(element_->name)));
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
-    if constexpr (Order != std::endian::native) std::reverse(raw.begin(), raw.end());
     at_ += sizeof(T);
-    return std::bit_cast<T>(raw);
+    return number_from_bytes<T>(bytes_.data() + last_, Order == std::endian::big);
   }
   void skip(PlyType type) {
     with_type(type, [this](auto zero) { this->value<decltype(zero)>(); });

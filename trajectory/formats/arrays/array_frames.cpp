@@ -74,7 +74,7 @@ void ArrayFrames::add_npz(const fs::path& file) {
       array.fault = header ? fault_of(*header, archive_->members()[i].size) : "is empty";
       if (header) array.header = *header;
     } catch (const InputError& error) {
-      array.fault = std::string(error.what()).substr(array.name.size() + 2);  // without its name
+      array.fault = message_without_name(error.what(), array.name);
     }
     array.open = open;
     arrays_.push_back(std::move(array));

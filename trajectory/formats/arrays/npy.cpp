@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <type_traits>
 
 #include <noli/errors.h>
+#include "trajectory/number_bytes.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -156,14 +156,6 @@ class HeaderText {
 /// Numbers are read in parts, so that no length is believed before its bytes have come.
 constexpr std::size_t part_bytes = std::size_t{1} << 16;
 
-template <class Number>
-Number from_bytes(const char* bytes, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::memcpy(raw.data(), bytes, sizeof(Number));
-  if (big_endian != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
-  return std::bit_cast<Number>(raw);
-}
-
 [[noreturn]] void fail_at_end(const std::string& name) {
   throw InputError(name, "", "ends before its last number; the file was cut off");
 }
@@ -186,7 +178,7 @@ void convert(ByteStream& bytes, const NpyHeader& header, const std::string& name
   read_parts(bytes, sizeof(Number), numbers.size(), name,
              [&](const char* part, std::uint64_t first, std::size_t count) {
                for (std::size_t i = 0; i < count; ++i) {
-                 const auto number = from_bytes<Number>(part + i * sizeof(Number), header.big_endian);
+                 const auto number = number_from_bytes<Number>(part + i * sizeof(Number), header.big_endian);
                  if constexpr (std::is_same_v<Number, std::uint64_t>) {
                    if (number > std::uint64_t{INT64_MAX})
                      throw InputError(name, "", fmt::format("has the index {}", number));
@@ -228,8 +220,8 @@ std::optional<NpyHeader> read_npy_header(ByteStream& bytes, const std::string& n
   }
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   if (bytes.read_all(begin.data() + 8, length_bytes) < length_bytes) fail_at_end(name);
-  const std::size_t length = length_bytes == 2 ? from_bytes<std::uint16_t>(begin.data() + 8, false)
-                                               : from_bytes<std::uint32_t>(begin.data() + 8, false);
+  const std::size_t length = length_bytes == 2 ? number_from_bytes<std::uint16_t>(begin.data() + 8, false)
+                                               : number_from_bytes<std::uint32_t>(begin.data() + 8, false);
   if (length > most_header) throw InputError(name, "", fmt::format("has a header of {} bytes", length));
   std::string text(length, 0);
   if (bytes.read_all(text.data(), length) < length) fail_at_end(name);

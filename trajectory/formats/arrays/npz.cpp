@@ -91,13 +91,12 @@ NpzFile::NpzFile(const std::filesystem::path& path) : name_(path.string()) {
   }
   // What lies behind a damaged entry would be missed.
   if (code != UNZ_END_OF_LIST_OF_FILE) throw InputError(name_, "", "has a damaged directory");
-  require_end_of_directory(archive.get());
+  require_end_of_directory();
 }
 
 /// The directory goes up to its end record, which is the end of the file: so no entry is missed, and no other directory
 /// is hidden in a comment.
-void NpzFile::require_end_of_directory(void* archive) const {
-  unz_global_info64 all;
+void NpzFile::require_end_of_directory() const {
   std::ifstream file = open_regular_file(name_);
   file.seekg(0, std::ios::end);
   const auto size = static_cast<std::uint64_t>(file.tellg());
@@ -110,7 +109,7 @@ void NpzFile::require_end_of_directory(void* archive) const {
     for (std::size_t i = bytes; i > 0; --i) value = value << 8 | static_cast<unsigned char>(end[at + i - 1]);
     return value;
   };
-  const bool plain = read && end.starts_with("PK\5\6") && unzGetGlobalInfo64(archive, &all) == UNZ_OK;
+  const bool plain = read && end.starts_with("PK\5\6");
   if (!plain) throw InputError(name_, "", "has something behind its directory; expected an archive without a comment");
   const std::uint64_t begin = number(16, 4), length = number(12, 4);
   const bool large = begin == 0xffffffff || length == 0xffffffff || number(10, 2) == 0xffff;

@@ -35,7 +35,7 @@ class NpzFile {
   std::unique_ptr<ByteStream> open(std::size_t number) const;
 
  private:
-  void require_end_of_directory(void* archive) const;
+  void require_end_of_directory() const;
 
   std::string name_;
   std::vector<NpzMember> members_;

@@ -64,7 +64,7 @@ void StreamFrames::read_cells() {
                       "which are real numbers",
                       header->text()));
     }
-    cells.emplace_back(integers_of(*bytes_, *header, array_name()), corners_of(*header));
+    cells.emplace_back(integers_of(*bytes_, *header, array_name()), corners);
   }
   if (!header) throw InputError("standard input", "", "ends before its first frame; expected cells, then positions");
   require_frame(*header);

@@ -5,12 +5,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 #include <type_traits>
 
 #include <noli/errors.h>
+#include "trajectory/number_bytes.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -90,14 +88,6 @@ class ArrayBytes {
   bool base64_;
   std::string waiting_;  ///< decoded, not taken yet
 };
-
-template <class Number>
-Number from_bytes(const char* bytes, bool big_endian) {
-  std::array<char, sizeof(Number)> raw{};
-  std::memcpy(raw.data(), bytes, sizeof(Number));
-  if (big_endian != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
-  return std::bit_cast<Number>(raw);
-}
 
 /// Deflate makes at most 1032 bytes of one.
 std::string inflated(const std::string& deflated, std::uint64_t size) {
@@ -202,8 +192,8 @@ std::string VtkXml::bytes_of(const pugi::xml_node& array) const {
     ArrayBytes bytes(from, !appended || !appended_raw_);
     const auto header = [&] {
       const std::string raw = bytes.take(long_headers_ ? 8 : 4);
-      return long_headers_ ? from_bytes<std::uint64_t>(raw.data(), big_endian_)
-                           : from_bytes<std::uint32_t>(raw.data(), big_endian_);
+      return long_headers_ ? number_from_bytes<std::uint64_t>(raw.data(), big_endian_)
+                           : number_from_bytes<std::uint32_t>(raw.data(), big_endian_);
     };
     // Real coordinates do not shrink to a hundredth.
     constexpr std::uint64_t small = std::uint64_t{1} << 28, most_fold = 100;
@@ -236,43 +226,53 @@ std::string VtkXml::bytes_of(const pugi::xml_node& array) const {
   }
 }
 
+template <class From>
+From VtkXml::number_of(std::string_view word, const pugi::xml_node& array, std::size_t position) const {
+  From value{};
+  if constexpr (std::is_floating_point_v<From>) {
+    const std::string problem = parse_finite(word, value);
+    if (!problem.empty()) fail(array, fmt::format("number {}: {}", position, problem));
+    return value;
+  }
+  bool is_one = false;
+  if constexpr (sizeof(From) == 1) {  // std::from_chars would take a letter
+    int number = 0;
+    is_one = parse_number(word, number) == std::errc{} && number == static_cast<int>(static_cast<From>(number));
+    value = static_cast<From>(number);
+  } else {
+    is_one = parse_number(word, value) == std::errc{};
+  }
+  if (!is_one) {
+    fail(array, fmt::format("number {}: expected one of type {}, found {}", position, type_of(array), in_quotes(word)));
+  }
+  return value;
+}
+
+template <class From, class Number>
+std::vector<Number> VtkXml::from_text(const pugi::xml_node& array) const {
+  std::vector<Number> result;
+  const std::string_view text = text_of(array);
+  constexpr std::string_view blanks = " \t\r\n";
+  for (std::size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    if (result.size() % 4096 == 0) end_if_stopped();
+    result.push_back(static_cast<Number>(number_of<From>(text.substr(begin, end - begin), array, result.size())));
+    begin = text.find_first_not_of(blanks, end);
+  }
+  return result;
+}
+
 template <class From, class Number>
 std::vector<Number> VtkXml::converted(const pugi::xml_node& array) const {
+  if (is_text(array)) return from_text<From, Number>(array);
   std::vector<Number> result;
-  if (is_text(array)) {
-    std::string_view text = text_of(array);
-    constexpr std::string_view blanks = " \t\r\n";
-    for (std::size_t begin = text.find_first_not_of(blanks); begin != std::string_view::npos;) {
-      const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
-      const std::string_view word = text.substr(begin, end - begin);
-      if (result.size() % 4096 == 0) end_if_stopped();
-      From value{};
-      if constexpr (std::is_floating_point_v<From>) {
-        const std::string problem = parse_finite(word, value);
-        if (!problem.empty()) fail(array, fmt::format("number {}: {}", result.size(), problem));
-      } else if (sizeof(From) == 1) {  // std::from_chars would take a letter
-        int number = 0;
-        if (parse_number(word, number) != std::errc{} || number != static_cast<int>(static_cast<From>(number))) {
-          fail(array, fmt::format("number {}: expected one of type {}, found {}", result.size(), type_of(array),
-                                  in_quotes(word)));
-        }
-        value = static_cast<From>(number);
-      } else if (parse_number(word, value) != std::errc{}) {
-        fail(array, fmt::format("number {}: expected one of type {}, found {}", result.size(), type_of(array),
-                                in_quotes(word)));
-      }
-      result.push_back(static_cast<Number>(value));
-      begin = text.find_first_not_of(blanks, end);
-    }
-    return result;
-  }
   const std::string bytes = bytes_of(array);
   if (bytes.size() % sizeof(From) != 0)
     fail(array, fmt::format("has {} bytes, no multiple of {}", bytes.size(), sizeof(From)));
   result.reserve(bytes.size() / sizeof(From));
   for (std::size_t at = 0; at < bytes.size(); at += sizeof(From)) {
     if (at % (std::size_t{1} << 16) == 0) end_if_stopped();
-    const auto value = from_bytes<From>(bytes.data() + at, big_endian_);
+    const auto value = number_from_bytes<From>(bytes.data() + at, big_endian_);
     if constexpr (std::is_same_v<From, std::uint64_t>) {
       if (value > std::uint64_t{INT64_MAX}) fail(array, fmt::format("has the number {}", value));
     }

@@ -8,6 +8,7 @@
 // with the bytes that are there before anything is allocated.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -42,6 +43,11 @@ class VtkXml {
 
  private:
   std::string bytes_of(const pugi::xml_node& array) const;
+  /// The number that a word of an array is; `position`: which of them.
+  template <class From>
+  From number_of(std::string_view word, const pugi::xml_node& array, std::size_t position) const;
+  template <class From, class Number>
+  std::vector<Number> from_text(const pugi::xml_node& array) const;
   template <class From, class Number>
   std::vector<Number> converted(const pugi::xml_node& array) const;
 

@@ -46,6 +46,13 @@ class VtkMesh {
     return std::move(frame_);
   }
 
+  VtkNumbers numbers() const {
+    const pugi::xml_node array = xml_.content().child("Piece").child("Points").child("DataArray");
+    VtkNumbers numbers{xml_.type_of(array), ""};
+    if (xml_.is_text(array)) numbers.text = xml_.text_of(array);
+    return numbers;
+  }
+
  private:
   void read_piece(const pugi::xml_node& piece) {
     end_if_stopped();
@@ -223,16 +230,11 @@ class VtkMesh {
 
 }  // namespace
 
-Frame parse_vtk(std::string_view bytes, const std::string& file, Polygons* polygons) {
-  return VtkMesh(bytes, file, polygons).read();
-}
-
-VtkNumbers vtk_numbers(std::string_view bytes, const std::string& file) {
-  const VtkXml xml(bytes, file, mesh_types);
-  const pugi::xml_node array = xml.content().child("Piece").child("Points").child("DataArray");
-  VtkNumbers numbers{xml.type_of(array), ""};
-  if (xml.is_text(array)) numbers.text = xml.text_of(array);
-  return numbers;
+Frame parse_vtk(std::string_view bytes, const std::string& file, Polygons* polygons, VtkNumbers* numbers) {
+  VtkMesh mesh(bytes, file, polygons);
+  Frame frame = mesh.read();
+  if (numbers != nullptr) *numbers = mesh.numbers();
+  return frame;
 }
 
 }  // namespace noli

@@ -16,13 +16,14 @@
 
 namespace noli {
 
-/// Throws InputError with the element that is at fault. `polygons`: what to do with those, and where they are noted.
-Frame parse_vtk(std::string_view bytes, const std::string& file, Polygons* polygons = nullptr);
-
-/// What the coordinates of a file are: "Float64", and the text of those that are text. Throws InputError.
+/// What the coordinates of the first piece are: "Float64", and the text of those that are text.
 struct VtkNumbers {
   std::string type, text;
 };
-VtkNumbers vtk_numbers(std::string_view bytes, const std::string& file);
+
+/// Throws InputError with the element that is at fault. `polygons`: what to do with those, and where they are noted.
+/// `numbers`: where to note what the coordinates are.
+Frame parse_vtk(std::string_view bytes, const std::string& file, Polygons* polygons = nullptr,
+                VtkNumbers* numbers = nullptr);
 
 }  // namespace noli
