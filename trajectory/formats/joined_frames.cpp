@@ -13,7 +13,7 @@ namespace noli {
 
 JoinedFrames::JoinedFrames(const std::vector<BodyFrames>& bodies, const FrameReading& reading) {
   std::vector<BodyFrames> in_order = bodies;
-  std::ranges::stable_partition(in_order, [](const BodyFrames& body) { return !body.still; });
+  std::stable_partition(in_order.begin(), in_order.end(), [](const BodyFrames& body) { return !body.still; });
   const FrameReading own = {reading.polygons, reading.keys, {}};
   for (const BodyFrames& body : in_order) {
     if (std::ranges::count(bodies_, body.name, &FrameBody::name) > 0) {

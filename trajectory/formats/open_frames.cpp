@@ -22,8 +22,8 @@ bool holds_frames(const std::filesystem::path& path) {
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
   if (!reading.bodies.empty()) return std::make_unique<JoinedFrames>(reading.bodies, reading);
-  const bool arrays = !names.empty() && is_array_name(names[0]);
-  if (!reading.keys.empty() && !arrays) {
+  const bool of_arrays = !names.empty() && is_array_name(names[0]);
+  if (!reading.keys.empty() && !of_arrays) {
     throw UsageError("--keys: names arrays of a .npz file; expected one, or no --keys");
   }
   const auto dash = std::ranges::find(names, "-");
@@ -34,7 +34,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);
   }
-  if (arrays) return std::make_unique<ArrayFrames>(names, reading.keys);
+  if (of_arrays) return std::make_unique<ArrayFrames>(names, reading.keys);
   return std::make_unique<FrameInputs>(names, reading.polygons);
 }
 
