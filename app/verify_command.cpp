@@ -312,6 +312,8 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
           "[[100, 120], 130]}, \"ignore\": [[\"a\", \"b\"]]}")
       ->type_name("GROUPS.json")
       ->group(group::question);
+  flag("--only-new", request.only_new,
+       "Leave out pairs of cells that intersect in the first frame: do others touch later?");
   flag("--strict", request.strict, "Also compare the features of one cell with each other");
   flag("--points", request.points, "Treat vertices without a face or edge as particles; else they are ignored");
   flag("--merge-identical", request.merge_identical,

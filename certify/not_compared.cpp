@@ -45,10 +45,17 @@ std::string what_is_not_compared(const NotCompared& left_out) {
   std::string what;
   if (left_out.any_held) what = held_text(left_out);
   if (!left_out.excluded.empty()) what += (what.empty() ? "" : "; ") + excluded_text(left_out);
+  if (left_out.baseline > 0) what += (what.empty() ? "" : "; ") + baseline_text(left_out);
   return what;
 }
 
 }  // namespace
+
+std::string baseline_text(const NotCompared& left_out) {
+  const bool one = left_out.baseline == 1;
+  return fmt::format("{} of cells that {} in the first frame",
+                     one ? "1 pair" : fmt::format("{} pairs", left_out.baseline), one ? "intersects" : "intersect");
+}
 
 NotCompared not_compared(const Mesh& mesh, std::span<const std::uint8_t> held, const Exclusions& exclusions,
                          const BodyNames& names) {

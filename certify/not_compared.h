@@ -26,6 +26,9 @@ std::string pair_text(const std::array<std::string, 2>& pair);
 /// are unknown.
 std::string held_text(const NotCompared& left_out);
 
+/// "214 pairs of cells that intersect in the first frame".
+std::string baseline_text(const NotCompared& left_out);
+
 /// "Nothing touches" or "Nothing that is compared touches", then `where` and a full stop; then names at most a few of
 /// the bodies that are not compared.
 std::string nothing_touches(const NotCompared& left_out, const std::string& where);

@@ -2,11 +2,13 @@
 #include <noli/sequence.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include <noli/contact.h>
 #include "certify/verification.h"
+#include "proofs/prover/cells/baseline.h"
 #include "proofs/prover/verifier.h"
 #include "proofs/prover/windows/window_verifier.h"
 
@@ -17,6 +19,16 @@ SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
 SequenceVerifier::~SequenceVerifier() = default;
 SequenceVerifier::SequenceVerifier(SequenceVerifier&&) noexcept = default;
 SequenceVerifier& SequenceVerifier::operator=(SequenceVerifier&&) noexcept = default;
+
+const std::vector<InitialIntersection>& SequenceVerifier::baseline(std::span<const Position> x) {
+  if (baseline_) return baseline_->pairs();
+  VerifyOptions options = step_options();
+  options.initial = true;
+  options.first_only = false;
+  options.max_reports = std::numeric_limits<std::size_t>::max();
+  baseline_ = std::make_unique<const Baseline>(mesh_, verify_between(x, x, options).initial_reports);
+  return baseline_->pairs();
+}
 
 std::optional<StepResult> SequenceVerifier::add(std::span<const Position> x) {
   if (options_.at_rest) return step(x, x);
@@ -35,12 +47,14 @@ VerifyOptions SequenceVerifier::step_options() const {
   options.first_only = options_.first_only;
   options.strict = options_.strict;
   options.max_reports = options_.max_reports;
+  options.baseline = baseline_.get();
   options.stop = options_.stop;
   options.deadline = options_.deadline;
   return options;
 }
 
 StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove) {
+  if (options_.only_new) baseline(x_t0);
   VerifyOptions options = step_options();
   options.prove = prove;
   options.progress = options_.progress;

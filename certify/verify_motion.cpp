@@ -51,10 +51,11 @@ class RunVerification : private Verification {
         live_(request.live),
         log_(read_log(run_)),
         reader_(open_run(run_, log_)) {
-    if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore) {
+    if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore ||
+        request.only_new) {
       throw UsageError(
-          "--static, --merge-identical, --points, --dimension, --ignore: are for frames; expected none of them with a "
-          "run");
+          "--static, --merge-identical, --points, --dimension, --ignore, --only-new: are for frames; expected none of "
+          "them with a run");
     }
     require_world_lines();
     const Mesh& mesh = reader_.mesh();

@@ -211,8 +211,17 @@ class SequenceVerification : private Verification {
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
-    outcome_.claim = claim_of_frames(request_, outcome_, mesh, exclusions());
     verifier_.emplace(std::move(mesh), options());
+    if (request_.only_new) find_baseline();
+    const std::size_t groups = groups_ ? groups_->names.size() : 1;
+    labels_ = labels_of_frames(verifier_->mesh(), exclusions(), static_cast<std::uint32_t>(groups), outcome_.baseline);
+    outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
+  }
+
+  /// Stopped on the way, it leaves the first step to say so.
+  void find_baseline() {
+    outcome_.baseline = verifier_->baseline(sequence_.x_t0());
+    outcome_.not_compared.baseline = outcome_.baseline.size();
   }
 
   /// Reads the pairs of groups that are not compared.
@@ -259,6 +268,7 @@ class SequenceVerification : private Verification {
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
     options.exclusions = exclusions();
+    options.only_new = request_.only_new;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     options.progress = [this](double share) {
@@ -322,8 +332,8 @@ class SequenceVerification : private Verification {
     if (proof_) return;
     outcome_.proof_begun = true;
     const Mesh& mesh = verifier_->mesh();
-    proof_ = proof_of_frames(request_, outcome_.claim, mesh, classes_ ? &*classes_ : nullptr, exclusions());
-    const WindowOptions options{verifier_->step_options(), {}, exclusions()};
+    proof_ = proof_of_frames(request_, outcome_.claim, mesh, classes_ ? &*classes_ : nullptr, labels_);
+    const WindowOptions options{verifier_->step_options(), {}, nullptr, &labels_};
     if (!verifier_proves(request_)) prover_.emplace(mesh, sequence_.x_t0(), options);
   }
 
@@ -374,6 +384,7 @@ class SequenceVerification : private Verification {
   std::optional<IdenticalVertices> classes_;
   std::optional<Groups> groups_;  ///< with --ignore
   std::optional<SequenceVerifier> verifier_;
+  CellLabels labels_;  ///< of the cells of verifier_
   std::unique_ptr<StepProofs> proof_;
   std::optional<WindowVerifier> prover_;  ///< set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves

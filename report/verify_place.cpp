@@ -55,7 +55,9 @@ class Place {
           request_.ring > 1 ? fmt::format("what is {} mesh edges or more away", request_.ring) : "all";
       text += fmt::format(", and {} is more than {} apart", which, digits17(request_.min_distance));
     }
-    for (const std::string& phrase : weakenings(outcome_.claim)) text += "; " + phrase;
+    Claim others = outcome_.claim;
+    if (outcome_.not_compared.any()) others.excluded.clear();  // named above
+    for (const std::string& phrase : weakenings(others)) text += "; " + phrase;
     return text;
   }
 

@@ -35,6 +35,13 @@ Json initial_reports_json(const VerifyOutcome& outcome) {
   return {{"listed", listed}, {"left_out", outcome.initial_intersections - listed}, {"intersections", list}};
 }
 
+/// The pairs of cells that are not compared because they intersect in the first frame.
+Json baseline_json(const VerifyOutcome& outcome) {
+  Json list = Json::array();
+  for (const InitialIntersection& pair : outcome.baseline) list.push_back({pair.first_cell, pair.second_cell});
+  return list;
+}
+
 Json steps_json(const VerifyOutcome& outcome) {
   Json json = Json::array();
   for (const StepCounts& step : outcome.steps) {
@@ -109,6 +116,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   json["first"] = first_json(outcome);
   json["reports"] = reports_json(outcome);
   json["initial_reports"] = initial_reports_json(outcome);
+  if (request.only_new) json["baseline"] = baseline_json(outcome);
   if (outcome.ending) {
     json["run"] = run_json(*outcome.ending);
     json["reproduced"] = outcome.reproduced;

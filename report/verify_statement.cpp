@@ -51,6 +51,7 @@ Json excluded_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
     list.push_back(fmt::format("two cells of {}, which {}", pair_text(pair),
                                request.run ? "the run's scene excludes" : "--ignore leaves out"));
   }
+  if (outcome.not_compared.baseline > 0) list.push_back(baseline_text(outcome.not_compared) + " (--only-new)");
   return list;
 }
 
@@ -77,6 +78,7 @@ Json statement_json(const VerifyRequest& request, const VerifyOutcome& outcome) 
       {"strict", request.strict},
       {"points", request.points},
       {"static", request.constant_motion},
+      {"only_new", request.only_new},
       {"keep_going", request.keep_going},
       {"first_only", request.first_only},
       {"merge_identical", request.merge_identical},

@@ -46,6 +46,7 @@ class Words {
       : request_(request), outcome_(outcome), wanted_(std::move(wanted)), answer_(answer) {}
 
   void operator()() {
+    baseline();
     contacts();
     initial_intersections();
     remarks();
@@ -77,6 +78,16 @@ class Words {
       answer_.text += row;
     else if (wanted_.details)
       answer_.details += row;
+  }
+
+  void baseline() {
+    if (!request_.only_new || outcome_.claim.cells.empty()) return;
+    line("Not compared: {}{}", baseline_text(outcome_.not_compared), outcome_.baseline.empty() ? "." : ":");
+    const auto& pairs = outcome_.baseline;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      listed(i, most_intersections, fmt::format("  cells {} and {}\n", pairs[i].first_cell, pairs[i].second_cell));
+    }
+    if (pairs.size() > most_intersections) line("  ... and {} more (-v)", pairs.size() - most_intersections);
   }
 
   void contacts() {
@@ -219,7 +230,7 @@ class Words {
   /// A proof that `noli check` takes only if it is asked for what it claims.
   void check_again() {
     if (!request_.proof || !outcome_.checked) return;
-    constexpr std::size_t most_named = 8;
+    constexpr std::size_t most_named = 8, most_of_a_command = 1000;
     std::vector<std::string> words = {"noli", "check", request_.proof->string()};
     for (const auto& frame : request_.frames) {
       if (request_.frames.size() <= most_named) words.push_back(frame.string());
@@ -230,7 +241,13 @@ class Words {
     for (const std::string& field : fields_beyond_default(outcome_.claim)) {
       words.insert(words.end(), {"--require", field});
     }
-    if (words.size() > plain) line("To check it again, ask for what it claims: {}", shell_words(words));
+    if (words.size() == plain) return;
+    std::string command = shell_words(words);
+    if (command.size() > most_of_a_command) {
+      words.resize(plain);
+      command = shell_words(words) + " --claim CLAIM.json, which --claim-out CLAIM.json writes";
+    }
+    line("To check it again, ask for what it claims: {}", command);
   }
 
   /// What a user does now.
@@ -247,10 +264,12 @@ class Words {
 
   std::string after_contact() const {
     const bool more = !request_.keep_going && outcome_.steps.size() < outcome_.steps_total;
-    const std::string steps = more ? "; --keep-going counts the contacts of all steps" : "";
+    std::string others = more ? "; --keep-going counts the contacts of all steps" : "";
+    const bool first = outcome_.initial_intersections > 0 && !request_.run && !request_.constant_motion;
+    if (first) others = "; --only-new leaves out what intersects from the beginning";
     const std::string result = wanted_.result.empty() ? "result.json" : shell_words({wanted_.result});
     return fmt::format("{}noli export {} -o first.png is a picture of it{}.",
-                       wanted_.result.empty() ? "--json result.json keeps the result, and " : "", result, steps);
+                       wanted_.result.empty() ? "--json result.json keeps the result, and " : "", result, others);
   }
 
   std::string after_stop() const {

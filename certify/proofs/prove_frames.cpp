@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/prove_frames.h"
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "certify/proofs/claim.h"
@@ -9,17 +11,23 @@
 namespace noli {
 namespace {
 
-/// The groups of cells, and those excluded pairs of groups that both have cells.
-CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions) {
-  CellLabels labels{std::vector<std::uint32_t>(mesh.cell_count(), 0), {}};
+std::vector<std::uint32_t> group_labels(const Mesh& mesh, const Exclusions* exclusions) {
+  std::vector<std::uint32_t> labels(mesh.cell_count(), 0);
   if (exclusions == nullptr) return labels;
-  for (std::uint32_t c = 0; c < labels.of.size(); ++c) labels.of[c] = exclusions->groups[corners(mesh, c)[0]];
-  const std::set<std::uint32_t> there(labels.of.begin(), labels.of.end());
-  for (const auto& [a, b] : exclusions->pairs) {
-    if (there.count(a) + there.count(b) == 2) labels.excluded.insert({a, b});
-  }
+  for (std::uint32_t c = 0; c < labels.size(); ++c) labels[c] = exclusions->groups[corners(mesh, c)[0]];
   return labels;
 }
+
+/// Gives each cell of the baseline a label of its own.
+void label_baseline(const std::vector<InitialIntersection>& baseline, std::uint32_t first_free,
+                    std::vector<std::uint32_t>& labels) {
+  std::set<std::uint32_t> cells;
+  for (const auto& [a, b] : baseline) cells.insert({a, b});
+  std::uint32_t label = first_free;
+  for (const std::uint32_t cell : cells) labels[cell] = label++;
+}
+
+void exclude(std::uint32_t a, std::uint32_t b, LabelPairs& pairs) { pairs.insert({std::min(a, b), std::max(a, b)}); }
 
 ProofHeader header_of(const VerifyRequest& request, const Claim& claim, const IdenticalVertices* classes) {
   ProofHeader header;
@@ -41,8 +49,25 @@ ProofHeader header_of(const VerifyRequest& request, const Claim& claim, const Id
 
 }  // namespace
 
+CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions, std::uint32_t first_free,
+                            const std::vector<InitialIntersection>& baseline) {
+  const std::vector<std::uint32_t> groups = group_labels(mesh, exclusions);
+  CellLabels labels{groups, {}};
+  label_baseline(baseline, first_free, labels.of);
+  for (const auto& [a, b] : baseline) exclude(labels.of[a], labels.of[b], labels.excluded);
+  if (exclusions == nullptr) return labels;
+  std::map<std::uint32_t, std::set<std::uint32_t>> of_group;
+  for (std::size_t c = 0; c < groups.size(); ++c) of_group[groups[c]].insert(labels.of[c]);
+  for (const auto& [a, b] : exclusions->pairs) {
+    for (const std::uint32_t one : of_group[a]) {
+      for (const std::uint32_t other : of_group[b]) exclude(one, other, labels.excluded);
+    }
+  }
+  return labels;
+}
+
 Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
-                      const Exclusions* exclusions) {
+                      const CellLabels& labels) {
   Claim claim;
   claim.motion = request.constant_motion ? "rest" : "linear";
   claim.dimension = outcome.dimension;
@@ -53,16 +78,15 @@ Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome
   claim.ring = request.ring;
   claim.merged = outcome.merged_vertices;
   claim.to = request.constant_motion ? 1 : static_cast<double>(outcome.steps_total);
-  const CellLabels labels = labels_of_frames(mesh, exclusions);
   set_cells(claim, mesh, labels.of, labels.excluded);
   return claim;
 }
 
 std::unique_ptr<StepProofs> proof_of_frames(const VerifyRequest& request, const Claim& claim, const Mesh& mesh,
-                                            const IdenticalVertices* classes, const Exclusions* exclusions) {
-  return std::make_unique<StepProofs>(
-      mesh, header_of(request, claim, classes), labels_of_frames(mesh, exclusions),
-      [&](const ProofHeader& header) { return ProofFile(request.open_proof(claim), header); });
+                                            const IdenticalVertices* classes, const CellLabels& labels) {
+  return std::make_unique<StepProofs>(mesh, header_of(request, claim, classes), labels, [&](const ProofHeader& header) {
+    return ProofFile(request.open_proof(claim), header);
+  });
 }
 
 }  // namespace noli

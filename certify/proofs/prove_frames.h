@@ -11,16 +11,23 @@
 
 namespace noli {
 
+/// Labels of cells for what is not compared: groups of vertices have the labels of the groups (`exclusions`, or
+/// nullptr); then each cell of the baseline has a label of its own, from `first_free` on, in the order of cells.
+CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions, std::uint32_t first_free,
+                            const std::vector<InitialIntersection>& baseline);
+
 /// The claim that is asked for. `outcome`: what is known about the frames before the first step.
 Claim claim_of_frames(const VerifyRequest& request, const VerifyOutcome& outcome, const Mesh& mesh,
-                      const Exclusions* exclusions);
+                      const CellLabels& labels);
 
 /// Whether verify_step itself can prove the request: its proofs have neither a least distance nor exclusions.
-inline bool verifier_proves(const VerifyRequest& request) { return request.min_distance == 0 && !request.ignore; }
+inline bool verifier_proves(const VerifyRequest& request) {
+  return request.min_distance == 0 && !request.ignore && !request.only_new;
+}
 
 /// Begins the proof of a claim in request.open_proof(claim). `mesh`: the compared mesh after merging; it must outlive
-/// the proof. `exclusions`: pairs that are not compared, or nullptr.
+/// the proof.
 std::unique_ptr<StepProofs> proof_of_frames(const VerifyRequest& request, const Claim& claim, const Mesh& mesh,
-                                            const IdenticalVertices* classes, const Exclusions* exclusions);
+                                            const IdenticalVertices* classes, const CellLabels& labels);
 
 }  // namespace noli

@@ -102,8 +102,9 @@ struct NotCompared {
   bool any_held = false;                             ///< two cells are scripted or pinned throughout
   std::vector<std::string> held;                     ///< their bodies, as far as they are known
   std::vector<std::array<std::string, 2>> excluded;  ///< bodies that the scene lets pass through each other
+  std::size_t baseline = 0;                          ///< pairs of cells that intersect in the first frame (--only-new)
 
-  bool any() const { return any_held || !excluded.empty(); }
+  bool any() const { return any_held || !excluded.empty() || baseline > 0; }
 };
 
 }  // namespace noli

@@ -40,6 +40,7 @@ namespace noli {
 struct StepProof;
 struct VerifyOptions;
 struct VerifyResult;
+class Baseline;
 class WindowVerifier;
 
 struct SequenceOptions {
@@ -49,7 +50,9 @@ struct SequenceOptions {
   bool first_only = false;  ///< stop at any contact
   bool strict = false;      ///< also compare the vertex-disjoint features of one cell
   std::size_t max_reports = 100;
-  const Exclusions* exclusions = nullptr;   ///< pairs of groups that are not compared; must outlive the verifier
+  const Exclusions* exclusions = nullptr;  ///< pairs of groups that are not compared; must outlive the verifier
+  /// Pairs of cells that intersect in the first frame are not compared: see SequenceVerifier::baseline().
+  bool only_new = false;
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the step is not complete
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::function<void(double)> progress = {};  ///< called with the share of the current step that is done, in [0, 1]
@@ -67,7 +70,7 @@ struct FirstInStep {
 struct StepResult : Findings {
   std::optional<FirstInStep> first;
   bool goes_on = false;  ///< features met at the beginning of the step: they were counted before, and may be `first`
-  std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions
+  std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions or only_new
 };
 
 class SequenceVerifier {
@@ -88,6 +91,11 @@ class SequenceVerifier {
   /// for add(), which is not called then. `prove`: also fill `proof`.
   StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
 
+  /// With `only_new`: the pairs of cells that intersect at the positions x of the first frame, in ascending order. All
+  /// others are compared. add() and step() look for them in their first frame if it was not called before. If it is
+  /// stopped they are not all there, and the first step is not complete.
+  const std::vector<InitialIntersection>& baseline(std::span<const Position> x);
+
   /// For Noli itself: the options of the prover for a step. `progress` is not among them.
   VerifyOptions step_options() const;
 
@@ -99,6 +107,7 @@ class SequenceVerifier {
   Mesh mesh_;
   SequenceOptions options_;
   std::unique_ptr<const WindowVerifier> windows_;  ///< with exclusions
+  std::unique_ptr<const Baseline> baseline_;       ///< with only_new, once the first frame is known
   std::uint64_t steps_ = 0;
   bool meeting_at_end_ = false;  ///< some pair met in the previous step: only then can one meet as the next one begins
   std::optional<std::vector<Position>> last_;  ///< frame of add()

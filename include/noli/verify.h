@@ -58,6 +58,7 @@ struct VerifyRequest {
   bool constant_motion = false;  ///< --static: each frame by itself, at rest
   bool merge_identical = false;
   std::optional<std::filesystem::path> ignore;        ///< groups that are not compared: `noli verify --help`
+  bool only_new = false;                              ///< cells that intersect in the first frame are not compared
   double min_distance = 0;                            ///< features must be more than this apart
   std::uint32_t ring = 1;                             ///< features fewer mesh edges apart may be nearer
   bool follow = false;                                ///< of a run: wait for windows that are still to come
@@ -156,6 +157,7 @@ struct VerifyOutcome {
   std::optional<RunEnding> ending;  ///< of a run
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
+  std::vector<InitialIntersection> baseline;  ///< with only_new: pairs of cells that intersect in the first frame
   std::optional<ListedContact> first;
   /// At most max_reports contacts, shared as evenly as possible among the steps that have any. Each step lists its
   /// first contact first, if that is known, then others in the order of noli/findings.h.

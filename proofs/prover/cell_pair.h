@@ -20,6 +20,7 @@
 #pragma once
 
 #include "proofs/prover/cells/around.h"
+#include "proofs/prover/cells/baseline.h"
 #include "proofs/prover/cells/direction_search.h"
 #include "proofs/prover/feature_pairs.h"
 #include "proofs/prover/initial.h"
@@ -33,6 +34,7 @@ namespace noli {
 struct CellOptions {
   bool initial = true;  ///< as in VerifyOptions
   bool strict = false;
+  const Baseline* baseline = nullptr;  ///< as in VerifyOptions
 };
 
 /// `Positions`: Straight or Chords. `Out`: Tokens, or NoTokens.
@@ -230,7 +232,8 @@ class CellPairs {
     }
     if (!progress.open) return;
     ++tally_.cell_pairs;
-    if (progress.meets_at_begin) tally_.add_initial(a.cell, b.cell);
+    if (!progress.meets_at_begin || (options_.baseline != nullptr && options_.baseline->has(a.cell, b.cell))) return;
+    tally_.add_initial(a.cell, b.cell);
   }
 
   /// Whether parts need not be settled if these are their unsettled pairs of features.
@@ -387,9 +390,17 @@ class CellPairs {
     examine({FeaturePair::vertex_edge, &at, corner_feature(corner), &at, edge_feature(edge)}, positions_.begin_time());
   }
 
+  /// Whether a pair of features that meets is not compared.
+  bool is_known(const FeatureQuestion<Dim>& question) const {
+    if (options_.baseline == nullptr) return false;
+    const auto v = question.vertices();
+    const std::span<const VertexId> first(v.data(), question.first.size);
+    return options_.baseline->covers(first, {v.data() + first.size(), question.second.size}, options_.strict);
+  }
+
   void examine(const FeatureQuestion<Dim>& question, double begin) {
     const auto enclosure = positions_.meet(question, begin, tally_);
-    if (enclosure) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
+    if (enclosure && !is_known(question)) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
   }
 
   CellOptions options_;

@@ -58,7 +58,8 @@ class Traversal {
         stop_(stop),
         tally_(tally),
         tokens_(out.tokens),
-        cell_pairs_({options.initial && positions.from_the_beginning(), options.strict}, positions_, tally, out) {}
+        cell_pairs_({options.initial && positions.from_the_beginning(), options.strict, options.baseline}, positions_,
+                    tally, out) {}
 
   /// From now on defers obligations about at most `grain` cells to the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {

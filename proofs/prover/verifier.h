@@ -51,6 +51,8 @@
 
 namespace noli {
 
+class Baseline;
+
 struct VerifyOptions {
   int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is ignored
   int threads = 0;          ///< 0: all there are
@@ -63,6 +65,7 @@ struct VerifyOptions {
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<void(double)> progress;  ///< called from any thread, one at a time, with the share done in [0, 1]
   bool prove = false;                    ///< also writes the proof that nothing touches, if nothing does
+  const Baseline* baseline = nullptr;    ///< pairs of cells that are not compared; not with `prove`
 };
 
 /// The proof that nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).

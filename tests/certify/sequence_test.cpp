@@ -78,6 +78,39 @@ TEST(Sequence, WhatIsExcludedIsNotCompared) {
   EXPECT_FALSE(verifier.add(point_at(-1))->touches());
 }
 
+TEST(Sequence, WhatIntersectsInTheFirstFrameIsNotComparedIfOnlyNewContactsAreAsked) {
+  SequenceVerifier verifier(triangle_and_point(), {.only_new = true});
+  verifier.add(point_at(0));
+  EXPECT_FALSE(verifier.add(point_at(1))->touches());
+  EXPECT_FALSE(verifier.add(point_at(-1))->touches()) << "it is the same pair";
+  EXPECT_EQ(verifier.baseline(point_at(0)), (std::vector<InitialIntersection>{{0, 1}}));
+
+  SequenceVerifier apart(triangle_and_point(), {.only_new = true});
+  apart.add(point_at(1));
+  EXPECT_TRUE(apart.add(point_at(-1))->touches());
+  EXPECT_TRUE(apart.baseline(point_at(1)).empty());
+}
+
+TEST(Sequence, OnlyNewContactsBesidesWhatIsExcluded) {
+  Mesh mesh = triangle_and_point();
+  mesh.vertex_count = 5;
+  mesh.points = {3, 4};
+  const auto points_at = [](double z, double w) {
+    auto x = point_at(z);
+    x.push_back({0.25, 0.5, w});
+    return x;
+  };
+  Exclusions exclusions;
+  exclusions.groups = {0, 0, 0, 1, 1};
+  exclusions.pairs = {{1, 1}};
+  SequenceVerifier verifier(mesh, {.exclusions = &exclusions, .only_new = true});
+  verifier.add(points_at(0, 1));
+  EXPECT_FALSE(verifier.add(points_at(-1, 0.5))->touches());
+  const auto touched = verifier.add(points_at(1, -0.5));
+  EXPECT_EQ(touched->contact_count(), 1U);
+  EXPECT_EQ(touched->first->contact.vertices[0], 4U);
+}
+
 TEST(Sequence, InThePlaneTheThirdCoordinateIsNotLookedAt) {
   Mesh mesh;
   mesh.vertex_count = 3;

@@ -4,9 +4,12 @@
 // touches.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "brute_force.h"
+#include "proofs/prover/cells/baseline.h"
+#include "proofs/prover/cells/features.h"
 #include "replay.h"
 
 namespace noli::testing {
@@ -45,12 +48,17 @@ class Soup : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(All, Soup, ::testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
 
-VerifyResult verify(const Step& step, const Case& c, bool prove = false) {
+VerifyOptions options_of(const Case& c) {
   VerifyOptions options;
   options.dimension = c.dimension;
   options.strict = c.strict;
   options.max_reports = 1000000;
   options.threads = 2;
+  return options;
+}
+
+VerifyResult verify(const Step& step, const Case& c, bool prove = false) {
+  VerifyOptions options = options_of(c);
   options.prove = prove;
   return verify_step(step.mesh, step.x_t0, step.x_t1, options);
 }
@@ -95,6 +103,48 @@ TEST_P(Soup, IsAnsweredByTheDefinitions) {
   EXPECT_GT(with_contact, 0u);
   EXPECT_GT(with_intersection, 0u);
   EXPECT_GT(pairs_apart, 0u);
+}
+
+/// Whether some pair of cells that is compared has both features, by looking at all of them.
+bool is_compared(const PairKey& key, const Mesh& mesh, bool strict, const std::vector<InitialIntersection>& baseline) {
+  const auto has = [&](std::uint32_t cell, std::size_t from, std::size_t to) {
+    const auto v = corners(mesh, cell);
+    return std::all_of(key.second.begin() + static_cast<std::ptrdiff_t>(from),
+                       key.second.begin() + static_cast<std::ptrdiff_t>(to),
+                       [&](VertexId w) { return std::ranges::count(v, w) > 0; });
+  };
+  for (std::uint32_t i = 0; i < mesh.cell_count(); ++i) {
+    for (std::uint32_t j = 0; j < mesh.cell_count(); ++j) {
+      if (!has(i, 0, first_size(key.first)) || !has(j, first_size(key.first), point_count(key.first))) continue;
+      const InitialIntersection pair = {std::min(i, j), std::max(i, j)};
+      if (i == j ? strict : std::ranges::count(baseline, pair) == 0) return true;
+    }
+  }
+  return false;
+}
+
+TEST_P(Soup, LeavesOutABaselineByTheDefinitions) {
+  std::size_t left_out = 0, counted = 0;
+  for (std::uint64_t seed = 0; seed < GetParam().seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Step step = random_soup(seed, GetParam().size, GetParam().dimension);
+    const VerifyResult all = verify(step, GetParam());
+    const Baseline baseline(step.mesh, all.initial_reports);
+    VerifyOptions options = options_of(GetParam());
+    options.baseline = &baseline;
+    const VerifyResult result = verify_step(step.mesh, step.x_t0, step.x_t1, options);
+    std::map<PairKey, int> expected = reported(all);
+    std::erase_if(expected, [&](const auto& counts) {
+      return !is_compared(counts.first, step.mesh, GetParam().strict, all.initial_reports);
+    });
+    EXPECT_EQ(reported(result), expected);
+    EXPECT_EQ(result.initial_intersections, 0U);
+    EXPECT_EQ(result.first.has_value(), !expected.empty());
+    counted += expected.size();
+    left_out += reported(all).size() - expected.size();
+  }
+  EXPECT_GT(left_out, 0U);
+  EXPECT_GT(counted, 0U);
 }
 
 /// Expects equal results: asking for a proof must not change them.

@@ -5,6 +5,13 @@
 
 namespace noli {
 
+namespace {
+
+bool left_out(std::uint32_t a, std::uint32_t b, const Exclusions& exclusions) {
+  const auto group = [](std::uint32_t label) { return static_cast<std::uint16_t>(label / 2); };
+  return (a % 2 == 1 && b % 2 == 1) || (!exclusions.empty() && exclusions.excluded(group(a), group(b)));
+}
+
 std::vector<std::uint32_t> run_labels(const Mesh& mesh, std::span<const std::uint8_t> scripted,
                                       const Exclusions& exclusions) {
   std::vector<std::uint32_t> labels;
@@ -17,6 +24,8 @@ std::vector<std::uint32_t> run_labels(const Mesh& mesh, std::span<const std::uin
   }
   return labels;
 }
+
+}  // namespace
 
 CellLabels labels_of_run(const Mesh& mesh, std::span<const std::uint8_t> scripted, const Exclusions& exclusions) {
   CellLabels labels{run_labels(mesh, scripted, exclusions), {}};

@@ -138,10 +138,16 @@ std::vector<std::uint32_t> rest_of(const Mesh& mesh, const Sheets& parts) {
   return result;
 }
 
+CellLabels labels_of(const Mesh& mesh, const WindowOptions& options) {
+  if (options.labels != nullptr) return *options.labels;
+  const Exclusions none;
+  return labels_of_run(mesh, options.scripted, options.exclusions != nullptr ? *options.exclusions : none);
+}
+
 }  // namespace
 
 Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
-    : exclusions_(options.exclusions != nullptr ? *options.exclusions : Exclusions{}),
+    : cell_labels_(labels_of(mesh, options)),
       leftovers_(mesh.cell_count(),
                  [this](std::size_t i) {
                    return Leftovers::NumberedShape{shape_of(leaves_[i]), leaves_[i].cell};
@@ -149,8 +155,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOption
       part_of_(mesh.vertex_count, no_part),
       sizes_(sizes_of(mesh, x, options.dimension)) {
   CellFeatures features = find_owners(mesh, options.strict);
-  const std::vector<std::uint32_t> labels = run_labels(mesh, options.scripted, exclusions_);
-  prefer_free_owners(mesh, labels, features);
+  if (options.labels == nullptr) prefer_free_owners(mesh, cell_labels_.of, features);
 
   const Sheets parts = parts_of(mesh, x, options.dimension);
   const std::vector<std::uint32_t> rest = rest_of(mesh, parts);
@@ -166,7 +171,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOption
     sort_leaves(Entries(entries).subspan(begin));
     for (std::size_t i = begin; i < entries.size(); ++i) {
       const std::uint32_t cell = entries[i].cell;
-      leaves_.push_back({names_of(mesh, features, cell), labels[cell]});
+      leaves_.push_back({names_of(mesh, features, cell), cell_labels_.of[cell]});
     }
     add_tree(sheet, part, begin);
   };

@@ -70,7 +70,7 @@ class Forest {
   /// Whether two groups, each of one label, are not compared.
   bool left_out(Group a, Group b) const {
     const std::uint32_t of_a = labels_[a.node], of_b = labels_[b.node];
-    return of_a != no_label && of_b != no_label && noli::left_out(of_a, of_b, exclusions_);
+    return of_a != no_label && of_b != no_label && cell_labels_.excludes(of_a, of_b);
   }
   /// The payload of block TREE (proofs/FORMAT.md): all trees, joined by a tree that halves their list.
   std::string encoded() const;
@@ -98,7 +98,7 @@ class Forest {
   std::vector<Tree> trees_;
   std::vector<Leaf> leaves_;
   std::vector<LaidFace> laid_faces_;
-  Exclusions exclusions_;
+  CellLabels cell_labels_;
   std::vector<std::uint32_t> labels_;  ///< by node: the label of all its cells, or no_label
   std::vector<Extent> extents_;
   std::optional<Charts> charts_;

@@ -40,6 +40,7 @@
 
 namespace noli {
 
+struct CellLabels;
 class Forest;
 class MeshPaths;
 
@@ -47,6 +48,7 @@ class MeshPaths;
 struct WindowOptions : VerifyOptions {
   std::span<const std::uint8_t> scripted;  ///< one per vertex, nonzero if scripted; empty: none is
   const Exclusions* exclusions = nullptr;  ///< for the mesh's vertices; nothing: none
+  const CellLabels* labels = nullptr;      ///< instead of these two, for proofs alone
 };
 
 /// The first contact of a window.
