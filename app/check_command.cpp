@@ -10,6 +10,7 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
@@ -164,7 +165,7 @@ CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
   const auto& files = request.trajectory;
   const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
   if (reading.bodies.empty() && (unknown || checkers_read(files))) return check_proof(request);
-  auto verdict = check_frames(request, *open_frames(request.trajectory, reading));
+  auto verdict = check_frames(request, *open_all_frames(request.trajectory, reading));
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);
 }

@@ -10,22 +10,26 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "certify/process/hdf5_frames.h"
 #include "certify/proofs/proof_info.h"
 #include "certify/queries/any_query.h"
 #include "certify/queries/ccd_run.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_info.h"
+#include "trajectory/formats/arrays/array_frames.h"
+#include "trajectory/formats/arrays/converted_frames.h"
 #include "trajectory/formats/file_info.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/formats/query_csv.h"
 
 namespace noli::app {
 namespace {
 
 constexpr const char* info_footer =
-    "Meshes (PLY, OBJ): format, counts, extent, what is degenerate. Queries (CSV): how many, and how many "
-    "have a label. Runs: windows, times, breakpoints, bytes, and whether the files are whole. Proofs: what "
-    "they claim, steps, times, bytes.\n"
+    "Meshes: format, counts, extent, what is degenerate; of files with many frames (.npz, .vtkhdf) those of the first, "
+    "and how many there are. Queries (CSV): how many, and how many have a label. Runs: windows, times, breakpoints, "
+    "bytes, and whether the files are whole. Proofs: what they claim, steps, times, bytes.\n"
     "Examples:\n"
     "  noli info frame.ply\n"
     "  noli info frames/*.obj --json info.json\n"
@@ -58,8 +62,7 @@ Json query_info(const std::filesystem::path& path) {
           {"labelled_contact", count_label(true)}};
 }
 
-Json mesh_info(const std::filesystem::path& path) {
-  const FileInfo info = describe_file(path);
+Json mesh_json(const std::filesystem::path& path, const FileInfo& info) {
   Json json = {{"file", path.string()},
                {"format", info.format},
                {"number_type", info.number_type},
@@ -77,6 +80,21 @@ Json mesh_info(const std::filesystem::path& path) {
   return json;
 }
 
+Json mesh_info(const std::filesystem::path& path) { return mesh_json(path, describe_file(path)); }
+
+/// Of a file that has many frames: what the first one is, and how many there are.
+Json motion_info(const std::filesystem::path& path) {
+  const auto source = open_all_frames({path});
+  const auto first = source->read(0);
+  if (!first) throw InputError(path.string(), "", "has no frame");
+  FileInfo info = describe_frame(*first);
+  info.format = is_hdf5_name(path) ? "HDF5" : is_array_name(path) ? "numpy" : "block file of frames";
+  info.number_type = source->facts()[0].numbers;
+  Json json = mesh_json(path, info);
+  json["frames"] = source->count().value_or(1);
+  return json;
+}
+
 Json info_of(const std::filesystem::path& path) {
   if (extension_of(path) == ".json") {
     throw InputError(path.string(), "",
@@ -85,7 +103,8 @@ Json info_of(const std::filesystem::path& path) {
   }
   if (std::filesystem::is_directory(path)) return run_info(path);
   if (is_proof(path)) return proof_info(path);
-  return extension_of(path) == ".csv" ? query_info(path) : mesh_info(path);
+  if (extension_of(path) == ".csv") return query_info(path);
+  return holds_frames(path) && !is_frame_name(path) ? motion_info(path) : mesh_info(path);
 }
 
 std::string as_text(const Json& value) {
@@ -126,7 +145,7 @@ Command add_info(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("info", "What is in a file or a run?");
   command->footer(info_footer);
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("files", arguments->files, "PLY, OBJ or CSV files, proofs, or folders of runs")
+  command->add_option("files", arguments->files, "Files of frames or of queries, proofs, or folders of runs")
       ->required()
       ->type_name("FILE");
   add_time_limit_option(*command, arguments->time_limit);

@@ -16,6 +16,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/output_files.h"
+#include "certify/process/hdf5_frames.h"
 #include "certify/runs/run_folder.h"
 #include "report/report_inputs.h"
 #include "report/report_page.h"
@@ -195,7 +196,7 @@ class Report {
   void put_frames() {
     if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
     const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
-    const auto frames = open_frames(inputs_.frames, reading());
+    const auto frames = open_all_frames(inputs_.frames, reading());
     const std::size_t count = frames->count().value_or(0);
     if (steps.run || steps.count != count) {
       throw InputError(verified_->path.string(), "",

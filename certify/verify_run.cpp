@@ -13,6 +13,7 @@
 #include <noli/errors.h>
 #include <noli/sequence.h>
 #include "certify/groups.h"
+#include "certify/process/hdf5_frames.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
 #include "certify/stopwatch.h"
@@ -22,7 +23,6 @@
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
-#include "trajectory/formats/open_frames.h"
 #include "trajectory/formats/stored_frames.h"
 #include "trajectory/merge.h"
 #include "trajectory/sample.h"
@@ -79,7 +79,7 @@ class SequenceVerification : private Verification {
  public:
   explicit SequenceVerification(const VerifyRequest& request)
       : Verification(request),
-        source_(open_frames(request.frames, request.reading)),
+        source_(open_all_frames(request.frames, request.reading)),
         sequence_(*source_, motion_of(request)) {
     require_readable(request.frames);
     if (request.merge_identical && !source_->can_begin_again()) {

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/claim.h"
 #include "certify/stopwatch.h"
-#include "trajectory/formats/open_frames.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -114,7 +114,7 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
     return checker_->finish();
   }
   const CheckRequest request{.proof = file_, .trajectory = trajectory(), .asked = fields_of(claim)};
-  if (frames_are_streamed()) return check_frames(request, *open_frames(request_.frames, request_.reading));
+  if (frames_are_streamed()) return check_frames(request, *open_all_frames(request_.frames, request_.reading));
   return CheckerProcess(request).finish();
 }
 

@@ -2,6 +2,7 @@
 #include "certify/runs/run_series_file.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -175,8 +176,25 @@ class Series {
       ends.push_back(bin_begin(extent_.first_bin + static_cast<std::int64_t>(i)));
     }
     file_.add("histograms/step_ends", "s", ends);
+    declare_mesh();
     declare("frames/time", "s", {extent_.frames});
     declare("frames/positions", "m", {extent_.frames, reader_.mesh().vertex_count, 3});
+  }
+
+  /// What the positions of frames are positions of.
+  void declare_mesh() {
+    const Mesh& mesh = reader_.mesh();
+    add_cells("mesh/faces", mesh.faces);
+    add_cells("mesh/edges", mesh.edges);
+    const std::vector<std::int64_t> points(mesh.points.begin(), mesh.points.end());
+    file_.add("mesh/points", "1", points);
+  }
+
+  template <std::size_t N>
+  void add_cells(const char* name, const std::vector<std::array<VertexId, N>>& cells) {
+    std::vector<std::int64_t> numbers;
+    for (const auto& cell : cells) numbers.insert(numbers.end(), cell.begin(), cell.end());
+    file_.add(name, "1", numbers, {cells.size(), N});
   }
 
   Column& column(const std::string& name) { return columns_.at(name); }

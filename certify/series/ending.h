@@ -13,8 +13,8 @@ namespace noli::series {
 
 enum class Ending : int {
   written = 0,
-  bad_stream = 3,  ///< the stream breaks stream.h
-  failure = 4      ///< the machine, or HDF5
+  bad_input = 3,  ///< the stream breaks stream.h, or the file is not as it must be
+  failure = 4     ///< the machine, or HDF5
 };
 
 [[noreturn]] inline void end_with(Ending ending, std::string_view line) {

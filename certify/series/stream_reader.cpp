@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t buffer_size = 1 << 16;
 
 void require(bool holds, const std::string& problem) {
-  if (!holds) end_with(Ending::bad_stream, "the stream: " + problem);
+  if (!holds) end_with(Ending::bad_input, "the stream: " + problem);
 }
 
 /// Requires that a piece has the shape that stream.h demands.

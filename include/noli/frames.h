@@ -24,11 +24,14 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace noli {
+
+class FrameConverter;
 
 enum class FrameOrder {
   checked,  ///< as given, which has to be the order of the numbers
@@ -71,6 +74,9 @@ struct FrameReading {
   PolygonRule polygons = PolygonRule::fan;
   std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
   std::vector<BodyFrames> bodies = {};  ///< joined into one mesh; empty for frames of one mesh
+
+  /// For Noli itself: what reads HDF5.
+  std::shared_ptr<const FrameConverter> hdf5 = {};
 };
 
 /// What was read of a frame.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <noli/errors.h>
+#include "certify/process/hdf5_frames.h"
 #include "certify/result_file.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
@@ -21,7 +22,6 @@
 #include "report/report_inputs.h"
 #include "report/report_results.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/open_frames.h"
 #include "trajectory/formats/vtk/write_vtu.h"
 #include "trajectory/sample.h"
 #include "trajectory/write_file.h"
@@ -148,7 +148,7 @@ class ContactOf {
     if (!frames_) {
       std::vector<std::filesystem::path> files;
       for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
-      frames_ = open_frames(files, reading_of(result_));
+      frames_ = open_all_frames(files, reading_of(result_));
     }
     frames_->look_at(k);
     std::optional<Frame> frame = frames_->read(k);

@@ -12,6 +12,9 @@
 #include "tests/app/scene.h"
 #include "tests/app/worked_example.h"
 #include "tests/support/numpy.h"
+#ifdef NOLI_SERIES
+#include "tests/support/vtkhdf.h"
+#endif
 
 namespace noli::app_tests {
 namespace {
@@ -81,6 +84,12 @@ class FrameSources : public testing::TestWithParam<bool> {
       }
     }
     all.push_back({{folder.write("motion.npy", array(0, frame_count).bytes()), npy[0]}});
+#ifdef NOLI_SERIES
+    for (const auto& [name, type] : {std::pair("l8.vtkhdf", H5T_IEEE_F64LE), std::pair("b4.hdf", H5T_IEEE_F32BE)}) {
+      test::write_vtkhdf(folder.path(name), array(0, frame_count).numbers, frame_count, {{0, 1, 2}, {3, 4, 5}}, type);
+      all.push_back({{folder.path(name)}});
+    }
+#endif
     all.push_back({{"-"}, folder.write("stream.bin", stream)});
     all.push_back({{folder.path("motion.frames")}});
     return all;

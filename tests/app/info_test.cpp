@@ -22,6 +22,23 @@ TEST(Info, DescribesAMesh) {
   EXPECT_EQ(file["upper"], nlohmann::json({4.0, 4.0, 2.0}));
 }
 
+TEST(Info, DescribesMotions) {
+  const std::string data = std::string(NOLI_SOURCE_DIR) + "/tests/data/frames/";
+  std::vector<std::pair<std::string, std::string>> files = {{"numpy.npz", "numpy"}};
+#ifdef NOLI_SERIES
+  files.emplace_back("once.vtkhdf", "HDF5");
+#endif
+  for (const auto& [name, format] : files) {
+    const auto json = json_of({"info", data + name}, 0);
+    const auto& file = json["files"][0];
+    EXPECT_EQ(file["format"], format);
+    EXPECT_EQ(file["frames"], 3);
+    EXPECT_EQ(file["vertices"], 6);
+    EXPECT_EQ(file["faces"], 2);
+    EXPECT_EQ(file["number_type"], "float64");
+  }
+}
+
 TEST(Info, DescribesQueries) {
   const Folder folder;
   const std::string rows = "0,1,0,1,0,1,1\n0,1,0,1,0,1,1\n0,1,0,1,0,1,1\n0,1,0,1,0,1,1\n";

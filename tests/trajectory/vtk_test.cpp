@@ -109,7 +109,7 @@ TEST(Vtk, SaysWhatIsWrong) {
   EXPECT_EQ(with(">0 1 2<", ">0 1 -2<"), "a.vtu: Cells: a cell has point -2; expected 0 to 7");
   EXPECT_EQ(with(">0 1 2<", ">0 1 x<"),
             "a.vtu: DataArray 'connectivity': number 2: expected one of type Int32, found 'x'");
-  EXPECT_EQ(with(">3<", ">4<"), "a.vtu: DataArray 'offsets': cell 0 ends at 4 of 3 corners");
+  EXPECT_EQ(with(">3<", ">4<"), "a.vtu: Cells: cell 0 ends at 4 of 3 corners");
   EXPECT_EQ(with(">3<", ">2<"), "a.vtu: Cells: cell 0 of type 5 has 2 points");
   EXPECT_EQ(with(">3<", ">3 3<"), "a.vtu: DataArray 'offsets': has 2 numbers for 1 cells");
   EXPECT_EQ(with(">5<", ">300<"), "a.vtu: DataArray 'types': number 0: expected one of type UInt8, found '300'");

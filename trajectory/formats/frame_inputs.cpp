@@ -119,10 +119,7 @@ std::vector<std::string> FrameInputs::notes() const {
     const std::string where = static_cast<std::size_t>(read) == read_.size()
                                   ? std::string("all frames")
                                   : fmt::format("the {} frames that were read", read);
-    notes.push_back(
-        fmt::format("{} polygon{} of more than three corners {} cut into fans of triangles; largest "
-                    "non-planarity in {}: {}",
-                    polygons_, polygons_ == 1 ? "" : "s", polygons_ == 1 ? "is" : "are", where, non_planarity_));
+    notes.push_back(polygons_note(polygons_, where, non_planarity_));
   }
   return notes;
 }

@@ -8,6 +8,7 @@
 #include <noli/errors.h>
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/arrays/array_frames.h"
+#include "trajectory/formats/arrays/converted_frames.h"
 #include "trajectory/formats/arrays/stream_frames.h"
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
@@ -17,7 +18,7 @@
 namespace noli {
 
 bool holds_frames(const std::filesystem::path& path) {
-  return is_frame_name(path) || is_array_name(path) || is_frames_file(path);
+  return is_frame_name(path) || is_array_name(path) || is_hdf5_name(path) || is_frames_file(path);
 }
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
@@ -33,6 +34,12 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   }
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
     return std::make_unique<BlockFrames>(names[0]);
+  }
+  if (!names.empty() && is_hdf5_name(names[0])) {
+    if (reading.hdf5 == nullptr) {
+      throw InputError(names[0].string(), "", "is HDF5, which noli_series reads; there is none beside this program");
+    }
+    return std::make_unique<ConvertedFrames>(names, reading.hdf5, reading.polygons);
   }
   if (of_arrays) return std::make_unique<ArrayFrames>(names, reading.keys);
   return std::make_unique<FrameInputs>(names, reading.polygons);

@@ -106,6 +106,12 @@ bool component_is_zero(const Position& a, const Position& b, const Position& c, 
 
 }  // namespace
 
+std::string polygons_note(std::size_t count, const std::string& where, double non_planarity) {
+  return fmt::format(
+      "{} polygon{} of more than three corners {} cut into fans of triangles; largest non-planarity in {}: {}", count,
+      count == 1 ? "" : "s", count == 1 ? "is" : "are", where, non_planarity);
+}
+
 std::string refused_polygon(std::size_t corners) {
   return fmt::format(
       "a face of {} corners; expected triangles (--polygons refuse): cut it into triangles, in all frames alike, or "

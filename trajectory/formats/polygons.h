@@ -40,6 +40,9 @@ std::string refused_polygon(std::size_t corners);
 double largest_non_planarity(const Mesh& mesh, std::span<const Fan> fans, std::span<const Position> positions,
                              double at_least = 0);
 
+/// What is to be known of polygons that were cut: how many, and how far from flat they are in `where`, "all frames".
+std::string polygons_note(std::size_t count, const std::string& where, double non_planarity);
+
 /// Whether three points are on one line, exactly. Precondition: finite.
 bool has_zero_area(const Position& a, const Position& b, const Position& c);
 

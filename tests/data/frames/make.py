@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the files in this folder: one motion of three frames, as writers that are not ours write it.
 
-    python3 make.py        with numpy 1.24, meshio 5.0, VTK 9.1 (Debian: python3-numpy, python3-meshio, python3-vtk9)
+    python3 make.py        with numpy 1.24, meshio 5.0, VTK 9.1, h5py 3.7 (Debian: python3-numpy, -meshio, -vtk9, -h5py)
 
 A triangle sinks towards another one; coordinates are multiples of 1/64, so that float32 has them exactly."""
 import io, zipfile
@@ -64,3 +64,45 @@ for k in range(3):
     write_vtk(f"raw_{k}.vtp", k, "appended", encoded=False)
     write_vtk(f"single_{k}.vtu", k, "appended", encoded=False, compressed=True)
     meshio.Mesh(frames[k], [("triangle", faces)]).write(f"meshio_{k}.vtu")
+
+# VTKHDF by its specification, version 2 (VTK 9.1 writes none): cells once for all steps, or again with each step; one
+# part or two; either byte order; whole or in packed chunks.
+import h5py
+
+def write_vtkhdf(name, kind, type_, integer, parts, cells_once, steps=3, **packed):
+    with h5py.File(name, "w") as file:
+        root = file.create_group("VTKHDF")
+        root.attrs["Version"] = np.array([2, 2], dtype=integer)
+        root.attrs.create("Type", np.bytes_(kind))
+        put = lambda group, name, values, dtype=integer, **how: group.create_dataset(name, data=np.array(values, dtype=dtype), **how)
+        per_part, times = 2 // parts, 1 if cells_once else steps
+        put(root, "Points", np.concatenate(frames[:steps]), type_, **packed)
+        put(root, "NumberOfPoints", [6 // parts] * (parts * (steps if not cells_once else 1)))
+        def topology(group, count):
+            part_faces = [[[v - 3 * p if parts == 2 else v for v in face] for face in faces[p * per_part:(p + 1) * per_part]]
+                          for p in range(parts)] if count else [[]] * parts
+            put(group, "NumberOfCells", [len(f) for f in part_faces] * times)
+            put(group, "NumberOfConnectivityIds", [3 * len(f) for f in part_faces] * times)
+            put(group, "Connectivity", [v for f in part_faces * times for face in f for v in face])
+            put(group, "Offsets", [3 * i for f in part_faces * times for i in range(len(f) + 1)])
+        if kind == "PolyData":
+            for group in ("Vertices", "Lines", "Polygons", "Strips"): topology(root.create_group(group), group == "Polygons")
+            columns = (0, 0, 1, 0)
+        else:
+            topology(root, True)
+            put(root, "Types", [5] * (2 * times), np.uint8)
+            columns = (1,)
+        if steps == 1: return
+        by_step = root.create_group("Steps")
+        by_step.attrs["NSteps"] = np.array(steps, dtype=integer)
+        put(by_step, "Values", range(steps), np.float64)
+        put(by_step, "NumberOfParts", [parts] * steps)
+        put(by_step, "PartOffsets", [0 if cells_once else k * parts for k in range(steps)])
+        put(by_step, "PointOffsets", [6 * k for k in range(steps)])
+        put(by_step, "CellOffsets", [[0 if cells_once else 2 * k * c for c in columns] for k in range(steps)])
+        put(by_step, "ConnectivityIdOffsets", [[0 if cells_once else 6 * k * c for c in columns] for k in range(steps)])
+
+write_vtkhdf("once.vtkhdf", "PolyData", "<f8", "<i8", 1, True)
+write_vtkhdf("again.vtkhdf", "PolyData", ">f8", ">i4", 1, False)
+write_vtkhdf("parts.vtkhdf", "UnstructuredGrid", "<f4", "<i8", 2, False, chunks=(4, 3), compression="gzip", shuffle=True)
+write_vtkhdf("grid.hdf", "UnstructuredGrid", "<f8", "<u4", 1, True)

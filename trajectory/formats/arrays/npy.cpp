@@ -272,4 +272,16 @@ void skip_numbers(ByteStream& bytes, const NpyHeader& header, const std::string&
   read_parts(bytes, header.size, count, name, [](const char*, std::uint64_t, std::size_t) {});
 }
 
+std::string npy_header(NpyHeader::Kind kind, std::size_t size, std::span<const std::uint64_t> shape) {
+  const char order = std::endian::native == std::endian::big ? '>' : '<';
+  std::string text = fmt::format("{{'descr': '{}{}{}', 'fortran_order': False, 'shape': ({}{}), }}", order,
+                                 kind == NpyHeader::Kind::real ? 'f' : 'u', size, fmt::join(shape, ", "),
+                                 shape.size() == 1 ? "," : "");
+  constexpr std::size_t before = magic.size() + 4, alignment = 64;
+  text.resize((before + text.size() + 1 + alignment - 1) / alignment * alignment - before - 1, ' ');
+  text += '\n';
+  const std::string begin{'\1', '\0', static_cast<char>(text.size() & 0xff), static_cast<char>(text.size() >> 8)};
+  return std::string(magic) + begin + text;
+}
+
 }  // namespace noli

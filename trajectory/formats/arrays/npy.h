@@ -43,6 +43,10 @@ std::optional<NpyHeader> read_npy_header(ByteStream& bytes, const std::string& n
 void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::span<double> numbers);
 void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::span<std::int64_t> numbers);
 
+/// The header of an array in this machine's byte order and the order of C, format version 1. Precondition: real or
+/// unsigned.
+std::string npy_header(NpyHeader::Kind kind, std::size_t size, std::span<const std::uint64_t> shape);
+
 /// Throws InputError unless the stream ends here. An archive checks the sum of a member where it ends.
 void require_end(ByteStream& bytes, const std::string& name);
 

@@ -35,18 +35,18 @@ class StreamFrames::Hashed : public ByteStream {
   std::uint64_t count_ = 0;
 };
 
-StreamFrames::StreamFrames(std::unique_ptr<ByteStream> bytes)
-    : bytes_(std::make_unique<Hashed>(std::move(bytes))), facts_(1) {
-  facts_[0].file = "-";
+StreamFrames::StreamFrames(std::unique_ptr<ByteStream> bytes, std::string file)
+    : bytes_(std::make_unique<Hashed>(std::move(bytes))), stream_(file == "-" ? "standard input" : file), facts_(1) {
+  facts_[0].file = std::move(file);
   facts_[0].frames = 0;
 }
 
 StreamFrames::~StreamFrames() = default;
 
-std::string StreamFrames::name(std::size_t k) const { return fmt::format("-[{}]", k); }
+std::string StreamFrames::name(std::size_t k) const { return fmt::format("{}[{}]", facts_[0].file, k); }
 
 std::optional<NpyHeader> StreamFrames::next_array() {
-  auto header = read_npy_header(*bytes_, fmt::format("standard input, array {}", arrays_ + 1));
+  auto header = read_npy_header(*bytes_, array_name(arrays_ + 1));
   if (header) ++arrays_;
   return header;
 }
@@ -66,11 +66,11 @@ void StreamFrames::read_cells() {
     }
     cells.emplace_back(integers_of(*bytes_, *header, array_name()), corners);
   }
-  if (!header) throw InputError("standard input", "", "ends before its first frame; expected cells, then positions");
+  if (!header) throw InputError(stream_, "", "ends before its first frame; expected cells, then positions");
   require_frame(*header);
   mesh_.vertex_count = header->shape[0];
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    append_cells(mesh_, cells[i].first, cells[i].second, fmt::format("standard input, array {}", i + 1));
+    append_cells(mesh_, cells[i].first, cells[i].second, array_name(i + 1));
   }
   drop_redundant_cells(mesh_);
   first_ = *header;
@@ -79,7 +79,9 @@ void StreamFrames::read_cells() {
   facts_[0].cells = mesh_.cell_count();
 }
 
-std::string StreamFrames::array_name() const { return fmt::format("standard input, array {}", arrays_); }
+std::string StreamFrames::array_name(std::size_t array) const {
+  return facts_[0].file == "-" ? fmt::format("{}, array {}", stream_, array) : name(frames_);
+}
 
 void StreamFrames::require_frame(const NpyHeader& header) const {
   if (!is_one_frame(header)) {

@@ -9,6 +9,7 @@
 
 #include "trajectory/blocks/bytes.h"
 #include "trajectory/formats/base64.h"
+#include "trajectory/formats/vtk/vtk_cell_reader.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
@@ -21,18 +22,18 @@ struct VtkCells {
   std::vector<std::uint8_t> types;
 
   template <class Vertices>
-  void add(const Vertices& vertices, std::uint8_t type) {
+  void add(const Vertices& vertices, VtkCell type) {
     connectivity.insert(connectivity.end(), vertices.begin(), vertices.end());
     offsets.push_back(connectivity.size());
-    types.push_back(type);
+    types.push_back(static_cast<std::uint8_t>(type));
   }
 };
 
 VtkCells vtk_cells(const Mesh& mesh) {
   VtkCells cells;
-  for (const auto& face : mesh.faces) cells.add(face, 5);
-  for (const auto& edge : mesh.edges) cells.add(edge, 3);
-  for (const VertexId point : mesh.points) cells.add(std::span(&point, 1), 1);
+  for (const auto& face : mesh.faces) cells.add(face, vtk_triangle);
+  for (const auto& edge : mesh.edges) cells.add(edge, vtk_line);
+  for (const VertexId point : mesh.points) cells.add(std::span(&point, 1), vtk_vertex);
   return cells;
 }
 
