@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* schema = "noli-claim";
 constexpr int schema_version = 1;
-constexpr std::size_t longest_word = 100'000;  // of a command line
+constexpr std::size_t longest_word = 100'000, longest_line = 1'500'000;  // of a command line
 
 bool is_excluded(const LabelPairs& pairs, std::uint32_t a, std::uint32_t b) {
   return pairs.contains({std::min(a, b), std::max(a, b)});
@@ -119,6 +119,17 @@ std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
   return words;
 }
 
+/// Appends key=value as words for a command line: a list of pairs that is too long for one, as several with the key.
+void append_field(const std::string& key, const std::string& value, std::vector<std::string>& fields) {
+  std::size_t begin = 0;
+  while (value.size() - begin > longest_word) {
+    const std::size_t comma = value.rfind(',', begin + longest_word);
+    fields.push_back(key + "=" + value.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  fields.push_back(key + "=" + value.substr(begin));
+}
+
 /// Reads the members of a claim file one by one.
 class ClaimFile {
  public:
@@ -137,8 +148,9 @@ class ClaimFile {
       if (key == "schema" || key == "version") continue;
       // For a run the pairs are always those of its scene.
       if (key == "excluded" && json.value("motion", Json()) == "run") continue;
-      fields.push_back(key + "=" + word(key, value));
-      if (fields.back().size() > longest_word) fail("/" + key, "has more pairs than a checker can be asked about");
+      const std::string text = word(key, value);
+      if (text.size() > longest_line) fail("/" + key, "has more pairs than a checker can be asked about");
+      append_field(key, text, fields);
     }
     return fields;
   }
@@ -214,10 +226,10 @@ std::vector<std::string> fields_of(const Claim& claim) {
     if (key == "ring" && claim.distance == 0) continue;
     // For a run the pairs are those of its scene by default; they may be too many for a command line.
     if (key == "excluded" && claim.motion == "run") continue;
-    fields.push_back(fmt::format("{}={}", key, value));
-    if (fields.back().size() > longest_word) {
+    if (value.size() > longest_line) {
       throw InputError("the claim", key, "has more pairs of labels than a checker can be asked to leave out");
     }
+    append_field(key, value, fields);
   }
   return fields;
 }

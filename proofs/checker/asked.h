@@ -175,7 +175,7 @@ class Asked {
     const std::string field = word.substr(0, word.find('='));
     std::string value = word.substr(std::min(field.size() + 1, word.size()));
     const bool bare = field == word;
-    require_word(given_.insert(field).second, word, "the field is asked twice");
+    require_word(field == "excluded" || given_.insert(field).second, word, "the field is asked twice");
     if (bare && (field == "strict" || field == "points" || field == "empty")) value = "1";
     if (field == "motion") {
       const auto found = std::ranges::find(motions, value);
@@ -199,7 +199,8 @@ class Asked {
       merged_ = number(word, value, std::uint32_t{0});
     } else if (field == "excluded") {
       require_word(!bare, word, "expected excluded=A-B,C-D, or excluded= for none");
-      excluded_ = pairs(word, value);
+      if (!excluded_) excluded_.emplace();
+      add_pairs(word, value);
     } else {
       require_word(field == "cells", word,
                    "expected motion, dimension, steps, strict, points, distance, ring, merged, excluded, cells or "
@@ -223,20 +224,18 @@ class Asked {
   static bool flag(const std::string& word, const std::string& text) {
     return number(word, text, std::uint32_t{0}, std::uint32_t{1}) == 1;
   }
-  /// Pairs as in A-B,C-D, with A <= B, strictly ascending.
-  static std::set<LabelPair> pairs(const std::string& word, const std::string& text) {
-    std::set<LabelPair> result;
+  /// Pairs as in A-B,C-D, with A <= B, strictly ascending, from one word to the next too.
+  void add_pairs(const std::string& word, const std::string& text) {
     for (std::size_t at = 0; !text.empty() && at <= text.size();) {
       const std::size_t end = std::min(text.find(',', at), text.size()), minus = std::min(text.find('-', at), end);
       const LabelPair pair = {
           number(word, text.substr(at, minus - at), std::uint32_t{0}),
           number(word, text.substr(std::min(minus + 1, end), end - std::min(minus + 1, end)), std::uint32_t{0})};
-      require_word(pair[0] <= pair[1] && (result.empty() || *result.rbegin() < pair), word,
+      require_word(pair[0] <= pair[1] && (excluded_->empty() || *excluded_->rbegin() < pair), word,
                    "expected pairs A-B with A <= B, in ascending order");
-      result.insert(pair);
+      excluded_->insert(excluded_->end(), pair);
       at = end + 1;
     }
-    return result;
   }
 
   std::set<std::string> given_;

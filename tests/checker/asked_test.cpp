@@ -357,6 +357,9 @@ TEST(Asked, PairsOfLabelsThatAreNotCompared) {
   EXPECT_REJECTED(proof.asked({"excluded=3-3", cells}), "the claim: excluded");
   EXPECT_REJECTED(proof.asked({"excluded=3-3,5-6", cells}), "the claim: excluded");
   EXPECT_VERDICT(proof.asked({"excluded=3-3,5-5", cells}), 0, "; not compared: 3-3,5-5");
+  EXPECT_VERDICT(proof.asked({"excluded=3-3", cells, "excluded=5-5"}), 0, "; not compared: 3-3,5-5");
+  EXPECT_REJECTED(proof.asked({"excluded=5-5", "excluded=3-3", cells}), "in ascending order");
+  EXPECT_REJECTED(proof.asked({"excluded=3-3,5-5", "excluded=5-5", cells}), "in ascending order");
   EXPECT_ACCEPTED(proof.asked({"excluded=3-3,3-5,5-5", cells}));
   EXPECT_REJECTED(proof.asked({"excluded=3-3,5-5", other}), "the claim: cells");
   proof.claim.excluded.clear();

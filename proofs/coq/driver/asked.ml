@@ -167,6 +167,7 @@ let with_field asked word =
     let rec ascends = function
       | (a, b) :: rest -> a <= b && (match rest with next :: _ -> (a, b) < next | [] -> true) && ascends rest
       | [] -> true in
+    let all = Option.value asked.may_exclude ~default:[] @ all in
     check (ascends all) "expected pairs A-B with A <= B, in ascending order"; { asked with may_exclude = Some all }
   | "cells" ->
     let is_digit c = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') in
@@ -183,7 +184,7 @@ let of_words words =
   let field word = List.hd (String.split_on_char '=' word) in
   let check holds word why = if not holds then raise (Rejected ("the command line, --require " ^ word ^ ": " ^ why)) in
   let one (asked, given) word =
-    check (not (List.mem (field word) given)) word "the field is asked twice";
+    check (field word = "excluded" || not (List.mem (field word) given)) word "the field is asked twice";
     (with_field asked word, field word :: given) in
   let asked, _ = List.fold_left one (nothing, []) words in
   check (asked.of_cells <> None || Option.value asked.may_exclude ~default:[] = []) "excluded"

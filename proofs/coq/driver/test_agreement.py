@@ -233,6 +233,9 @@ for name, proof, files, code in good:
         agree(f"{name}, asked", proof, files, None, list(some.values()))
 for field in IMPOSSIBLE: agree("impossible", good[0][1], good[0][2], 3, [field])
 agree("twice", good[0][1], good[0][2], 3, ["strict=0", "strict=0"])
+cells = [field for field in own_claim(good[0][1]) if field.startswith("cells=")]
+agree("in two words", good[0][1], good[0][2], None, ["excluded=1-2", "excluded=1-3,2-2"] + cells)
+agree("in two words that descend", good[0][1], good[0][2], 3, ["excluded=1-3", "excluded=1-2"])
 
 # Broken ones
 
