@@ -19,6 +19,7 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
+#include "app/verify_meshes.h"
 #include "certify/process/child.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/checker.h"
@@ -27,6 +28,7 @@
 #include "certify/result_file.h"
 #include "certify/runs/run_folder.h"
 #include "certify/stopwatch.h"
+#include "report/meshes_report.h"
 #include "report/verify_ci.h"
 #include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -191,6 +193,49 @@ void name_frames(VerifyArguments& arguments) {
   request.frames = files_of(request.reading.bodies);
 }
 
+/// Frames of one mesh, or a run.
+ExitCode verify_all(VerifyArguments& arguments, const Output& output) {
+  VerifyRequest& request = arguments.request;
+  ProofRoute route(request);
+  request.stop = &interrupted();
+  std::optional<ProgressBars> bars(std::in_place);
+  const bool told = !request.run && request.frames.size() > 2 && request.reading.bodies.empty() &&
+                    std::ranges::all_of(request.frames, is_frame_name);
+  request.progress = [&](std::string_view work, double share) {
+    bars->show(work, share, told ? where(request, work, share) : "");
+  };
+  const VerifyOutcome outcome = verify(request, route);
+  bars.reset();
+  if (arguments.claim_out && outcome.claim.cells.empty()) {
+    tell_note("no claim was written: no step was looked at");
+  } else if (arguments.claim_out) {
+    write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
+  }
+  if (arguments.junit) write_result(*arguments.junit, report::verify_junit(request, outcome));
+  if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
+  // The JSON of 10,000 frames takes more memory than all else.
+  Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
+  const report::WordsWanted wanted{arguments.results.json.value_or(""), arguments.results.verbose};
+  output.write("verify", report::verify_answer(request, outcome, wanted), std::move(json));
+  return exit_code(outcome.verdict);
+}
+
+/// Files with different meshes, each at rest.
+ExitCode verify_each(const VerifyRequest& asked, const VerifyArguments& arguments, const Output& output,
+                     const OtherMesh& error) {
+  const bool single = asked.proof || asked.trajectory || arguments.claim_out || arguments.junit || arguments.github ||
+                      asked.only_new || asked.merge_identical || asked.ignore || !asked.reading.bodies.empty();
+  if (single) {
+    throw UsageError(
+        fmt::format("--proof, --claim-out, --trajectory, --junit, --github, --only-new, --merge-identical, --ignore, "
+                    "--body: are about one mesh, but {}",
+                    error.what()));
+  }
+  const std::vector<report::MeshVerdict> meshes = verify_meshes(asked, arguments.results.json.has_value());
+  output.write("verify-meshes", report::meshes_answer(meshes), report::meshes_json(meshes));
+  return exit_code(report::verdict_of(meshes));
+}
+
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
@@ -224,28 +269,13 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
   inputs = {};  // paths of 10,000 frames are megabytes
-  ProofRoute route(request);
-  request.stop = &interrupted();
-  std::optional<ProgressBars> bars(std::in_place);
-  const bool told = !request.run && request.frames.size() > 2 && request.reading.bodies.empty() &&
-                    std::ranges::all_of(request.frames, is_frame_name);
-  request.progress = [&](std::string_view work, double share) {
-    bars->show(work, share, told ? where(request, work, share) : "");
-  };
-  const VerifyOutcome outcome = verify(request, route);
-  bars.reset();
-  if (arguments.claim_out && outcome.claim.cells.empty()) {
-    tell_note("no claim was written: no step was looked at");
-  } else if (arguments.claim_out) {
-    write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
+  const VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
+  try {
+    return verify_all(arguments, output);
+  } catch (const OtherMesh& error) {
+    if (!request.constant_motion) throw;
+    return verify_each(asked, arguments, output, error);
   }
-  if (arguments.junit) write_result(*arguments.junit, report::verify_junit(request, outcome));
-  if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
-  // The JSON of 10,000 frames takes more memory than all else.
-  Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
-  const report::WordsWanted wanted{arguments.results.json.value_or(""), arguments.results.verbose};
-  output.write("verify", report::verify_answer(request, outcome, wanted), std::move(json));
-  return exit_code(outcome.verdict);
 }
 
 /// What a first use needs.
@@ -254,7 +284,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   CLI::Option* const frames =
       command
           .add_option("frames", request.frames,
-                      "PLY or OBJ files in the order of time, a folder of them, a pattern; .npz or .npy; or one run")
+                      "Frames in the order of time: files, a folder, a pattern, .npz, .vtkhdf and others; or one run")
           ->type_name("FRAMES|RUN");
   add_body_options(command, arguments.bodies, frames);
   add_order_option(command, request.order);
@@ -294,7 +324,8 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
   const auto flag = [&command](const char* name, bool& value, const char* help) {
     command.add_flag(name, value, help)->group(group::question);
   };
-  flag("--static", request.constant_motion, "Take each frame by itself, at rest: does a mesh intersect itself?");
+  flag("--static", request.constant_motion,
+       "Take each frame by itself, at rest: does a mesh intersect itself? Meshes may differ");
   command.add_option("--min-distance", request.min_distance, "Features must stay more than this apart")
       ->check(is_positive())
       ->type_name("DISTANCE")

@@ -31,6 +31,11 @@ class InputError : public std::runtime_error {
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
 };
 
+/// A frame has another mesh than those before it.
+struct OtherMesh : InputError {
+  using InputError::InputError;
+};
+
 /// The request is at fault: options that do not go together, a place that cannot be written to.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;

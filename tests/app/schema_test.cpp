@@ -77,6 +77,9 @@ TEST_F(Schema, OfVerify) {
   expect_valid("verify", {"verify", a, b, c, "--keep-going"});
   expect_valid("verify", {"verify", a, b, c, "--no-check", "--proof", folder.path("abc.noli")});
   expect_valid("verify", {"verify", a, "--static", "--strict", "--points", "--merge-identical"});
+  expect_valid("verify", {"verify", a, b, "--only-new"});
+  const std::string other = folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_valid("verify-meshes", {"verify", a, other, "--static"});
   expect_valid("verify", {"verify", a, b, "--min-distance", "0.25"});
   expect_valid("verify", {"verify", a, b, "--min-distance", "0.75"});
   expect_valid("verify", {"verify", a, b, "--min-distance", "2"});

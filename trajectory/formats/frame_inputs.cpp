@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The same error, with the number of the frame.
-InputError of_frame(const InputError& error, const std::string& path, std::size_t k, std::size_t count) {
+template <class Error>
+Error of_frame(const Error& error, const std::string& path, std::size_t k, std::size_t count) {
   return {path, "", fmt::format("{} (frame {} of {})", message_without_name(error.what(), path), k + 1, count)};
 }
 
@@ -44,6 +45,8 @@ void FrameInputs::look_at(std::size_t k) {
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
     const std::string bytes = read_whole_file(path);
     look_at(k, bytes);
+  } catch (const OtherMesh& error) {
+    throw of_frame(error, facts_[k].file, k, facts_.size());
   } catch (const InputError& error) {
     throw of_frame(error, facts_[k].file, k, facts_.size());
   }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/verify_meshes.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/process.h"
+#include "app/progress.h"
+#include "certify/proofs/proof_route.h"
+#include "report/verify_report.h"
+
+namespace noli::app {
+namespace {
+
+report::MeshVerdict verify_mesh(VerifyRequest request, bool result, ProgressBars& bars, double done, double share) {
+  const std::string file = request.frames[0].string();
+  ProofRoute route(request);
+  request.progress = [&](std::string_view work, double part) { bars.show(work, done + share * part, file); };
+  VerifyOutcome outcome = run_verify(request);
+  route.check(outcome);
+  return {file, outcome.verdict, report::verify_answer(request, outcome, {"", true}),
+          result ? report::verify_json(request, outcome) : Json()};
+}
+
+}  // namespace
+
+std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, bool result) {
+  std::vector<report::MeshVerdict> meshes;
+  ProgressBars bars;
+  const double share = 1 / static_cast<double>(request.frames.size());
+  for (const auto& frame : request.frames) {
+    VerifyRequest one = request;
+    one.frames = {frame};
+    one.stop = &interrupted();
+    meshes.push_back(verify_mesh(std::move(one), result, bars, share * static_cast<double>(meshes.size()), share));
+  }
+  return meshes;
+}
+
+}  // namespace noli::app

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/meshes_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include <noli/errors.h>
+namespace noli::report {
+namespace {
+
+constexpr std::array<Verdict, 5> worst_first = {Verdict::contact, Verdict::too_near, Verdict::undecided,
+                                                Verdict::no_contact, Verdict::proved};
+
+std::size_t count_of(const std::vector<MeshVerdict>& meshes, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(meshes, verdict, &MeshVerdict::verdict));
+}
+
+/// "in 2 of 5 meshes something touches: b.ply is the first".
+std::string place_of_all(const std::vector<MeshVerdict>& meshes) {
+  const Verdict verdict = verdict_of(meshes);
+  const auto first = std::ranges::find(meshes, verdict, &MeshVerdict::verdict);
+  const std::string some = fmt::format("{} of {} meshes", count_of(meshes, verdict), meshes.size());
+  const std::string name = on_one_line(first->file);
+  switch (verdict) {
+    case Verdict::contact: return fmt::format("in {} something touches; the first is {}", some, name);
+    case Verdict::too_near: return fmt::format("in {} something is too near; the first is {}", some, name);
+    case Verdict::undecided: return fmt::format("{} are not settled; the first is {}", some, name);
+    case Verdict::no_contact:
+      return fmt::format("{} meshes: nothing touches in any (decided exactly, not checked)", meshes.size());
+    case Verdict::proved:
+      return fmt::format("{} meshes: nothing touches in any (each accepted by the checker)", meshes.size());
+  }
+  return "";
+}
+
+}  // namespace
+
+Verdict verdict_of(const std::vector<MeshVerdict>& meshes) {
+  return *std::ranges::find_if(worst_first, [&](Verdict verdict) { return count_of(meshes, verdict) > 0; });
+}
+
+Json meshes_json(const std::vector<MeshVerdict>& meshes) {
+  Json json = {{"verdict", name(verdict_of(meshes))}, {"meshes", Json::array()}};
+  for (const MeshVerdict& mesh : meshes) json["meshes"].push_back({{"file", mesh.file}, {"result", mesh.json}});
+  return json;
+}
+
+Answer meshes_answer(const std::vector<MeshVerdict>& meshes) {
+  Answer answer(name(verdict_of(meshes)), {{"meshes", meshes.size()}});
+  for (const Verdict verdict : worst_first) answer.add({name(verdict), count_of(meshes, verdict)});
+  for (const MeshVerdict& mesh : meshes) {
+    answer.text += fmt::format("{}\n  {}\n", on_one_line(mesh.file), mesh.answer.last_line());
+    answer.details += fmt::format("{}\n{}", on_one_line(mesh.file), mesh.answer.words_above(true));
+  }
+  answer.place = place_of_all(meshes);
+  return answer;
+}
+
+}  // namespace noli::report
