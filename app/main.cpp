@@ -129,6 +129,7 @@ ExitCode guarded(int argc, char** argv) {
 }  // namespace noli::app
 
 int main(int argc, char** argv) {
+  noli::app::return_large_memory();
   noli::app::prepare_for_the_worst();
   noli::app::install_signal_handlers();
   return static_cast<int>(noli::app::guarded(argc, argv));

@@ -3,6 +3,9 @@
 
 #include <fcntl.h>
 #include <gmp.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 #include <cerrno>
@@ -142,6 +145,13 @@ void install_signal_handlers() {
   on_signal(SIGPIPE, SIG_IGN);
   on_signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is then an error of write
   hear_signals();
+}
+
+void return_large_memory() {
+#ifdef __GLIBC__
+  constexpr int large = 128 * 1024;  // what glibc begins with; to set it ends its growth
+  mallopt(M_MMAP_THRESHOLD, large);
+#endif
 }
 
 void prepare_for_the_worst() {

@@ -28,6 +28,10 @@ void hear_stops_everywhere();
 /// was called. A second call replaces the first. Throws std::system_error.
 void stop_after(std::chrono::nanoseconds limit);
 
+/// Gives large pieces of memory back to the system as soon as they are free. By itself glibc soon keeps them, and a
+/// thousand frames then take three times the memory of two.
+void return_large_memory();
+
 /// Makes a failed allocation inside GMP, which cannot throw, and std::terminate end in one line and ExitCode::failure;
 /// and makes sure that descriptors 0 to 2 exist, so that no file that is opened later takes the place of a closed
 /// standard output.

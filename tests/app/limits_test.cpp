@@ -3,12 +3,19 @@
 // Tests time limits and interruptions: every command reacts soon, whatever it is doing, and a limit that is not reached
 // changes nothing.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <functional>
 
 #include "tests/app/runs/simulate_fixture.h"
+#include "tests/support/numpy.h"
+#ifdef NOLI_SERIES
+#include "tests/support/vtkhdf.h"
+#endif
 
 namespace noli::app_tests {
 namespace {
@@ -319,6 +326,70 @@ TEST_F(Limits, ManyTinyFramesTakeLittleMemory) {
     EXPECT_LT(large.peak_bytes, small.peak_bytes + 20'000'000u);
   }
 }
+
+/// A waving sheet, written as one file of all frames by `write(path, coordinates, frames, faces)`.
+class LongMotion : public testing::Test {
+ protected:
+  static constexpr std::size_t side = 150, vertices = side * side;
+  using Faces = std::vector<std::array<std::int64_t, 3>>;
+
+  static std::vector<double> coordinates(std::size_t frames) {
+    std::vector<double> x;
+    for (std::size_t k = 0; k < frames; ++k) {
+      for (std::size_t v = 0; v < vertices; ++v) {
+        const double u = static_cast<double>(v % side), w = static_cast<double>(v / side);
+        x.insert(x.end(), {u, w, std::sin(0.1 * u + 0.2 * static_cast<double>(k)) * std::cos(0.07 * w)});
+      }
+    }
+    return x;
+  }
+  static Faces faces() {
+    Faces faces;
+    for (std::size_t i = 0; i + 1 < side; ++i) {
+      for (std::size_t j = 0; j + 1 < side; ++j) {
+        const auto a = static_cast<std::int64_t>(i * side + j), b = static_cast<std::int64_t>(a + side);
+        faces.push_back({a, a + 1, b + 1});
+        faces.push_back({a, b + 1, b});
+      }
+    }
+    return faces;
+  }
+  template <class Write>
+  void expect_memory_of_two_frames(const Write& write) const {
+    const std::string few = write(2), all = write(60);
+#ifdef __GLIBC__
+    malloc_trim(0);  // what a process has before it becomes another program counts as that one's
+#endif
+    const Process two = run_noli({"verify", "--no-check", few}), many = run_noli({"verify", "--no-check", all});
+    ASSERT_EQ(two.exit_code, 0) << two.err;
+    ASSERT_EQ(many.exit_code, 0) << many.err;
+    if (!sanitized) {
+      EXPECT_LT(static_cast<double>(many.peak_bytes), 1.3 * static_cast<double>(two.peak_bytes));
+    }
+  }
+
+  Folder folder;
+};
+
+TEST_F(LongMotion, InAnArchiveTakesTheMemoryOfTwoFrames) {
+  test::NumpyArray cells{"<u4", {faces().size(), 3}, {}};
+  for (const auto& face : faces()) cells.numbers.insert(cells.numbers.end(), face.begin(), face.end());
+  expect_memory_of_two_frames([&](std::size_t frames) {
+    const test::NumpyArray x{"<f8", {frames, vertices, 3}, coordinates(frames)};
+    return folder.write(std::to_string(frames) + ".npz",
+                        test::stored_zip({{"x.npy", x.bytes()}, {"f.npy", cells.bytes()}}));
+  });
+}
+
+#ifdef NOLI_SERIES
+TEST_F(LongMotion, InHdf5TakesTheMemoryOfTwoFrames) {
+  expect_memory_of_two_frames([&](std::size_t frames) {
+    const std::string file = folder.path(std::to_string(frames) + ".vtkhdf");
+    test::write_vtkhdf(file, coordinates(frames), frames, faces(), H5T_IEEE_F64LE);
+    return file;
+  });
+}
+#endif
 
 }  // namespace
 }  // namespace noli::app_tests
