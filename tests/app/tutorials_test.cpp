@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/process.h"
 #include "tests/app/scene.h"
 #include "tests/app/worked_example.h"
+#include "tests/support/real_data.h"
 
 namespace noli::app_tests {
 namespace {
@@ -50,6 +52,17 @@ TEST(Tutorials, Readme) {
     std::filesystem::create_directory_symlink(std::string(NOLI_SOURCE_DIR) + "/" + name, folder.path(name));
   }
   expect_tutorial("README.md", folder.path("."));
+}
+
+/// The study's commands run where its frames are.
+TEST(Tutorials, Study) {
+  const auto frames = test::real_data("frames");
+  if (!frames || !verified_checker_is_there()) GTEST_SKIP() << "needs the real frames and the verified checker";
+  const Folder folder;
+  for (const char* const name : {"armadillo-rollers", "cloth-funnel", "cloth-ball", "rod-twist-clean"}) {
+    std::filesystem::create_directory_symlink(*frames / name, folder.path(name));
+  }
+  expect_tutorial("docs/study.md", folder.path("."));
 }
 
 TEST(Tutorials, TheirStepsAreFound) {
