@@ -7,7 +7,7 @@
 
 #include <noli/errors.h>
 #include "certify/contact_report.h"
-#include "certify/process/run_program.h"
+#include "certify/process/this_program.h"
 #include "certify/proofs/claim.h"
 #include "kernel/parallel.h"
 #include "report/input_report.h"

@@ -70,6 +70,21 @@ bool is_inside(hid_t file, const std::string& path) {
   }
 }
 
+struct Attribute {
+  std::string name;
+  Handle id, type, space;
+
+  Attribute(hid_t file, const std::string& group, const std::string& attribute)
+      : name(group + "." + attribute),
+        id(require(H5Aopen_by_name(file, group.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), name,
+                   "is not there"),
+           H5Aclose),
+        type(require(H5Aget_type(*id), name, "cannot be read"), H5Tclose),
+        space(require(H5Aget_space(*id), name, "cannot be read"), H5Sclose) {}
+
+  void read(hid_t as, void* to) const { require(H5Aread(*id, as, to), name, "cannot be read"); }
+};
+
 constexpr std::uint64_t most_integers = std::uint64_t{1} << 28;  // at once
 
 }  // namespace
@@ -145,41 +160,33 @@ Hdf5Array Hdf5Input::array(const std::string& path) const {
 }
 
 std::string Hdf5Input::text(const std::string& group, const std::string& attribute) const {
-  const std::string name = group + "." + attribute;
-  const Handle text(
-      require(H5Aopen_by_name(file_, group.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), name, "is not there"),
-      H5Aclose);
-  const Handle type(require(H5Aget_type(*text), name, "cannot be read"), H5Tclose);
-  const Handle space(require(H5Aget_space(*text), name, "cannot be read"), H5Sclose);
+  const Attribute text(file_, group, attribute);
   constexpr std::size_t most_letters = 256;
-  if (H5Tget_class(*type) != H5T_STRING || H5Sget_simple_extent_npoints(*space) != 1) {
-    throw BadInput(name, "expected a text");
+  if (H5Tget_class(*text.type) != H5T_STRING || H5Sget_simple_extent_npoints(*text.space) != 1) {
+    throw BadInput(text.name, "expected a text");
   }
-  if (H5Tis_variable_str(*type) > 0) {
+  if (H5Tis_variable_str(*text.type) > 0) {
     char* letters = nullptr;
-    require(H5Aread(*text, *type, static_cast<void*>(&letters)), name, "cannot be read");
+    text.read(*text.type, static_cast<void*>(&letters));
     std::string result = letters == nullptr ? "" : letters;
     H5free_memory(letters);
     return result;
   }
-  const std::size_t size = H5Tget_size(*type);
-  if (size > most_letters) throw BadInput(name, "is too long");
+  const std::size_t size = H5Tget_size(*text.type);
+  if (size > most_letters) throw BadInput(text.name, "is too long");
   std::string result(size, '\0');
-  require(H5Aread(*text, *type, result.data()), name, "cannot be read");
+  text.read(*text.type, result.data());
   return result.substr(0, result.find('\0'));
 }
 
 std::vector<std::int64_t> Hdf5Input::integers(const std::string& group, const std::string& attribute) const {
-  const std::string name = group + "." + attribute;
-  const Handle numbers(
-      require(H5Aopen_by_name(file_, group.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), name, "is not there"),
-      H5Aclose);
-  const Handle type(require(H5Aget_type(*numbers), name, "cannot be read"), H5Tclose);
-  const Handle space(require(H5Aget_space(*numbers), name, "cannot be read"), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(*space);
-  if (H5Tget_class(*type) != H5T_INTEGER || count < 1 || count > 16) throw BadInput(name, "expected integers");
+  const Attribute numbers(file_, group, attribute);
+  const hssize_t count = H5Sget_simple_extent_npoints(*numbers.space);
+  if (H5Tget_class(*numbers.type) != H5T_INTEGER || count < 1 || count > 16) {
+    throw BadInput(numbers.name, "expected integers");
+  }
   std::vector<std::int64_t> result(static_cast<std::size_t>(count));
-  require(H5Aread(*numbers, H5T_NATIVE_INT64, result.data()), name, "cannot be read");
+  numbers.read(H5T_NATIVE_INT64, result.data());
   return result;
 }
 

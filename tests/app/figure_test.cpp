@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <noli/run.h>
 #include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {

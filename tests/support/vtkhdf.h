@@ -63,7 +63,7 @@ class VtkHdfFile {
 
 /// A motion of `frames` frames; coordinates are stored as `type`.
 inline void write_vtkhdf(const std::filesystem::path& path, const std::vector<double>& coordinates, std::size_t frames,
-                         const std::vector<std::array<std::uint32_t, 3>>& faces, hid_t type) {
+                         const std::vector<std::array<std::int64_t, 3>>& faces, hid_t type) {
   const VtkHdfFile file(path);
   const std::size_t vertices = coordinates.size() / 3 / frames;
   file.array("VTKHDF/Points", coordinates, {coordinates.size() / 3, 3}, type);
