@@ -106,7 +106,7 @@ class SeriesConverter : public FrameConverter {
     while (const std::size_t got = reading.read(line.data() + size, line.size() - size)) size += got;
     std::istringstream words(line.substr(0, size));
     Look look;
-    words >> look.frames >> look.vertices >> look.cells >> look.numbers;
+    words >> look.frames >> look.vertices >> look.cells >> look.numbers >> look.polygons >> look.mesh;
     if (!words)
       throw HelperError(fmt::format("noli_series said of {}: {}", file.string(), first_line(line.substr(0, size))));
     return look;

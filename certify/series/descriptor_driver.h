@@ -12,7 +12,7 @@
 namespace noli::series {
 
 /// Makes `access` use the driver, which ignores the name passed to the library. Precondition: `file` is a regular file,
-/// open for reading and writing. `on_loss`: called with errno when it cannot be written or read; must not return. A
+/// open for what is done with it. `on_loss`: called with errno when it cannot be written or read; must not return. A
 /// process can use one descriptor. Returns whether HDF5 accepted it.
 bool use_descriptor(hid_t access, int file, void (*on_loss)(int error));
 

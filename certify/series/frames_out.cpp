@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <set>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -18,7 +17,7 @@
 #include "certify/series/ending.h"
 #include "certify/series/hdf5_input.h"
 #include "certify/series/vtkhdf.h"
-#include "trajectory/cells.h"
+#include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/arrays/npy.h"
 #include "trajectory/formats/polygons.h"
 
@@ -69,11 +68,24 @@ void put_line(int output, const std::string& text) {
 }
 
 /// What is known of frames before they are written.
-struct FrameLook {
+struct Contents {
   std::uint64_t frames;
   const Mesh& mesh;
   Hdf5Array::Type type;
+  std::size_t polygons;  ///< that are cut
 };
+
+/// Of all cells.
+std::string hash_of(const Mesh& mesh) {
+  Sha256 hash;
+  const auto add = [&hash](const auto& cells) {
+    hash.update({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof cells[0]});
+  };
+  add(mesh.faces);
+  add(mesh.edges);
+  add(mesh.points);
+  return hex(hash.digest());
+}
 
 void write_cells(const Mesh& mesh, ArraysOut& out) {
   out.rows(mesh.faces);
@@ -86,20 +98,19 @@ class FramesOut {
  public:
   FramesOut(ArraysOut& out, const Mesh& mesh, const Polygons& polygons) : out_(out), mesh_(mesh), polygons_(polygons) {}
 
-  void write(const Hdf5Array& array, Rows points) {
-    if (array.type() == Hdf5Array::Type::f32) return write<float>(array, points);
-    write<double>(array, points);
+  /// The numbers of these rows are the positions of a frame.
+  void write(const Hdf5Array& array, Rows rows) {
+    if (array.type() == Hdf5Array::Type::f32) return write<float>(array, rows);
+    write<double>(array, rows);
   }
   double non_planarity() const { return non_planarity_; }
 
  private:
   template <class T>
-  void write(const Hdf5Array& array, Rows points) {
-    std::vector<T> numbers(static_cast<std::size_t>(points.count * 3));
-    // Rows of a series are frames, those of other arrays are points.
-    const bool frames = array.shape().size() == 3;
-    array.read(points.first, frames ? 1 : points.count, numbers.data());
-    out_.numbers(numbers, {points.count, 3});
+  void write(const Hdf5Array& array, Rows rows) {
+    std::vector<T> numbers(static_cast<std::size_t>(rows.count * array.row()));
+    array.read(rows.first, rows.count, numbers.data());
+    out_.numbers(numbers, {numbers.size() / 3, 3});
     if (polygons_.fans.empty()) return;
     std::vector<Position> positions;
     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
@@ -121,17 +132,17 @@ class VtkHdfFrames {
   VtkHdfFrames(const Hdf5Input& file, PolygonRule rule) : frames_(file), polygons_{rule} {
     if (frames_.steps() == 0) throw BadInput("VTKHDF/Steps", "has no steps");
     mesh_ = frames_.mesh_of(0, polygons_);
-    std::set<std::vector<std::uint64_t>> same = {frames_.cells_key(0)};
+    std::vector<std::uint64_t> last = frames_.cells_key(0);
     for (std::uint64_t k = 0; k < frames_.steps(); ++k) {
       frames_.points_of(k);
       auto key = frames_.cells_key(k);
-      if (same.contains(key)) continue;
+      if (key == last) continue;
       require_same_cells(k);
-      same.insert(std::move(key));
+      last = std::move(key);
     }
   }
 
-  FrameLook look() const { return {frames_.steps(), mesh_, frames_.points().type()}; }
+  Contents look() const { return {frames_.steps(), mesh_, frames_.points().type(), polygons_.fans.size()}; }
 
   void write(ArraysOut& out) const {
     write_cells(mesh_, out);
@@ -190,13 +201,13 @@ class SeriesFrames {
     for (const auto& point : cells_of<1>(file, "mesh/points", shape[1])) mesh_.points.push_back(point[0]);
   }
 
-  FrameLook look() const { return {positions_.shape()[0], mesh_, positions_.type()}; }
+  Contents look() const { return {positions_.shape()[0], mesh_, positions_.type(), 0}; }
 
   void write(ArraysOut& out) const {
     write_cells(mesh_, out);
     const Polygons none;
     FramesOut frames(out, mesh_, none);
-    for (std::uint64_t k = 0; k < positions_.shape()[0]; ++k) frames.write(positions_, {k, mesh_.vertex_count});
+    for (std::uint64_t k = 0; k < positions_.shape()[0]; ++k) frames.write(positions_, {k, 1});
   }
 
  private:
@@ -223,9 +234,10 @@ void write_frames(int input, int output, PolygonRule rule) {
 
 void write_look(int input, int output, PolygonRule rule) {
   with_frames(input, rule, [&](const auto& frames) {
-    const FrameLook look = frames.look();
-    put_line(output, fmt::format("{} {} {} {}", look.frames, look.mesh.vertex_count, look.mesh.cell_count(),
-                                 look.type == Hdf5Array::Type::f32 ? "float32" : "float64"));
+    const Contents look = frames.look();
+    put_line(output,
+             fmt::format("{} {} {} {} {} {}", look.frames, look.mesh.vertex_count, look.mesh.cell_count(),
+                         look.type == Hdf5Array::Type::f32 ? "float32" : "float64", look.polygons, hash_of(look.mesh)));
   });
 }
 

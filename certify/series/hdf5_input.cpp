@@ -51,21 +51,46 @@ std::vector<std::uint64_t> shape_of(hid_t dataset, const std::string& name) {
   return {lengths.begin(), lengths.begin() + rank};
 }
 
-/// Throws unless the bytes are in the file itself, and the library can read them without plugins.
+bool is_allocated(hid_t dataset) {
+  H5D_space_status_t status = H5D_SPACE_STATUS_ERROR;
+  return H5Dget_space_status(dataset, &status) >= 0 && status == H5D_SPACE_STATUS_ALLOCATED;
+}
+
+/// By their number: what the library says of their bytes counts packed chunks as parts.
+bool has_all_chunks(hid_t dataset, hid_t made, hid_t space) {
+  std::array<hsize_t, H5S_MAX_RANK> lengths{}, chunk{};
+  const int rank = H5Sget_simple_extent_dims(space, lengths.data(), nullptr);
+  if (rank < 1 || H5Pget_chunk(made, rank, chunk.data()) != rank) return false;
+  hsize_t expected = 1, there = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rank); ++i) {
+    const hsize_t along = chunk[i] == 0 ? 0 : lengths[i] / chunk[i] + (lengths[i] % chunk[i] != 0 ? 1 : 0);
+    if (along == 0 || __builtin_mul_overflow(expected, along, &expected)) return false;
+  }
+  return H5Dget_num_chunks(dataset, space, &there) >= 0 && there == expected;
+}
+
+/// Throws unless all numbers are in the file itself: not in others, and not in chunks that were never written, which the
+/// library reads as zeros.
 void require_own_data(hid_t dataset, const std::string& name) {
   const Handle made(require(H5Dget_create_plist(dataset), name, "cannot be read"), H5Pclose);
   if (H5Pget_external_count(*made) != 0 || H5Pget_layout(*made) == H5D_VIRTUAL) {
     throw BadInput(name, "is in other files; expected numbers in this one");
   }
+  const Handle space(require(H5Dget_space(dataset), name, "its shape cannot be read"), H5Sclose);
+  const bool chunked = H5Pget_layout(*made) == H5D_CHUNKED;
+  const bool whole = chunked ? has_all_chunks(dataset, *made, *space) : is_allocated(dataset);
+  if (H5Sget_simple_extent_npoints(*space) > 0 && !whole) throw BadInput(name, "has numbers that were never written");
 }
 
-/// Whether an object is reached by hard links alone, which lead to no other file.
-bool is_inside(hid_t file, const std::string& path) {
+/// Whether there is an object of this name. Throws BadInput unless hard links lead to it, which stay in the file: what is
+/// there under another kind of link must not count as missing.
+bool is_there(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/');; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);
-    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (require(H5Lexists(file, part.c_str(), H5P_DEFAULT), part, "cannot be looked up") == 0) return false;
     H5L_info_t link;
-    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) return false;
+    require(H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT), part, "cannot be looked up");
+    if (link.type != H5L_TYPE_HARD) throw BadInput(part, "is a soft or external link; expected the object itself");
     if (end == std::string::npos) return true;
   }
 }
@@ -145,17 +170,17 @@ std::vector<std::int64_t> Hdf5Array::integers(std::uint64_t first, std::uint64_t
 
 Hdf5Input::Hdf5Input(int descriptor) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  H5PLset_loading_state(0);
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  if (access < 0 || !use_descriptor(access, descriptor, end_lost)) end_with(Ending::failure, "HDF5 fails");
+  if (access < 0 || H5PLset_loading_state(0) < 0 || !use_descriptor(access, descriptor, end_lost))
+    end_with(Ending::failure, "HDF5 fails");
   file_ = require(H5Fopen("frames", H5F_ACC_RDONLY, access), "the file",
                   "is no HDF5, or damaged; expected what ParaView, VTK or Noli write");
 }
 
-bool Hdf5Input::has(const std::string& path) const { return is_inside(file_, path); }
+bool Hdf5Input::has(const std::string& path) const { return is_there(file_, path); }
 
 Hdf5Array Hdf5Input::array(const std::string& path) const {
-  if (!has(path)) throw BadInput(path, "is not there, or is a link; expected an array");
+  if (!has(path)) throw BadInput(path, "is not there; expected an array");
   return {require(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), path, "expected an array"), path};
 }
 

@@ -57,7 +57,7 @@ class Hdf5Input {
   /// Precondition: the descriptor is a regular file, open for reading. Throws BadInput if it is not HDF5.
   explicit Hdf5Input(int descriptor);
 
-  /// Whether there is a group or an array of this name, reached by links within the file: "VTKHDF/Points".
+  /// Whether there is a group or an array of this name: "VTKHDF/Points". Throws BadInput for links to it.
   bool has(const std::string& path) const;
   /// Throws BadInput if there is none, or one that is not read.
   Hdf5Array array(const std::string& path) const;

@@ -56,6 +56,28 @@ VtkHdf::VtkHdf(const Hdf5Input& file) : file_(file), points_(file.array(root + "
   in_steps_ = file.has(steps_group);
   if (in_steps_) steps_ = count_of(file.integers(steps_group, "NSteps")[0], steps_group + ".NSteps");
   if (steps_ > most_steps) throw BadInput(steps_group, "has too many steps");
+  if (!in_steps_) require_all_used();
+}
+
+/// Without steps, an array with more numbers than the parts have says that something was misunderstood.
+void VtkHdf::require_all_used() const {
+  const auto require_rows = [](const Hdf5Array& array, std::uint64_t rows) {
+    if (array.shape()[0] == rows) return;
+    throw BadInput(array.name(),
+                   "has " + std::to_string(array.shape()[0]) + " rows, but its parts have " + std::to_string(rows));
+  };
+  require_rows(points_, points_of(0).count);
+  for (const Topology& topology : topologies_) {
+    std::uint64_t cells = 0, ends = 0, corners = 0;
+    for (const Place& place : places(topology, 0)) {
+      cells += place.cells.count;
+      ends += place.cells.count + 1;
+      corners += place.corners.count;
+    }
+    if (!topology.type) require_rows(file_.array(root + "/Types"), cells);
+    require_rows(file_.array(topology.group + "/Connectivity"), corners);
+    if (cells > 0) require_rows(file_.array(topology.group + "/Offsets"), ends);
+  }
 }
 
 void VtkHdf::add_topology(const std::string& group, std::size_t column, std::optional<std::int64_t> type) {
@@ -67,7 +89,7 @@ void VtkHdf::add_topology(const std::string& group, std::size_t column, std::opt
   topologies_.push_back(std::move(topology));
 }
 
-/// The parts of a step. Without NumberOfParts each step has one, or there is one step.
+/// The parts of a step. Without NumberOfParts, one part is that of all steps, or each step has one.
 Rows VtkHdf::parts_of(std::uint64_t step) const {
   const std::uint64_t all = points_by_part_.size();
   if (!in_steps_) return {0, all};
@@ -75,7 +97,7 @@ Rows VtkHdf::parts_of(std::uint64_t step) const {
   std::uint64_t count = 1;
   if (file_.has(steps_group + "/NumberOfParts")) {
     count = begin("NumberOfParts", step, 0);
-  } else if (all != 1 && all != steps_) {
+  } else if (all != 1 && !(all == steps_ && first == step)) {
     throw BadInput(steps_group + "/NumberOfParts", "is not there, and there are several parts");
   }
   if (first > all || count > all - first) {

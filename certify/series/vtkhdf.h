@@ -51,6 +51,7 @@ class VtkHdf {
     Rows cells, ends, corners;
   };
 
+  void require_all_used() const;
   void add_topology(const std::string& group, std::size_t column, std::optional<std::int64_t> type);
   Rows parts_of(std::uint64_t step) const;
   std::uint64_t begin(const char* name, std::uint64_t step, std::size_t column) const;

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <functional>
+#include <limits>
 #include <random>
 
 #include "tests/app/process.h"
@@ -150,7 +151,7 @@ TEST_F(Hdf5Frames, NothingOutsideTheFileIsRead) {
   H5Lcreate_external(folder.path("good.vtkhdf").c_str(), "/VTKHDF/Points", file, "VTKHDF/Points", H5P_DEFAULT,
                      H5P_DEFAULT);
   H5Fclose(file);
-  expect_refused(folder.path("linked.vtkhdf"), "VTKHDF/Points: is not there, or is a link");
+  expect_refused(folder.path("linked.vtkhdf"), "VTKHDF/Points: is a soft or external link");
 
   fs::copy_file(good(), folder.path("external.vtkhdf"));
   const hid_t other = H5Fopen(folder.path("external.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -164,6 +165,75 @@ TEST_F(Hdf5Frames, NothingOutsideTheFileIsRead) {
   H5Pclose(made);
   H5Fclose(other);
   expect_refused(folder.path("external.vtkhdf"), "is in other files");
+}
+
+/// What is left out because it is a link, or reads as zeros because nobody wrote it, must not leave the rest `proved`.
+TEST_F(Hdf5Frames, NothingIsLeftOutSilently) {
+  const auto changed = [&](const std::function<void(hid_t)>& change) {
+    fs::copy_file(good(), folder.path("changed.vtkhdf"), fs::copy_options::overwrite_existing);
+    const hid_t file = H5Fopen(folder.path("changed.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    change(file);
+    H5Fclose(file);
+    return folder.path("changed.vtkhdf");
+  };
+  for (const char* const part : {"VTKHDF/Polygons", "VTKHDF/Steps", "VTKHDF/Points", "VTKHDF"}) {
+    expect_refused(changed([&](hid_t file) {
+                     H5Lmove(file, part, file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT);
+                     H5Lcreate_soft("/elsewhere", file, part, H5P_DEFAULT, H5P_DEFAULT);
+                   }),
+                   std::string(part) + ": is a soft or external link");
+  }
+  expect_refused(changed([](hid_t file) {
+                   H5Ldelete(file, "VTKHDF/Steps", H5P_DEFAULT),
+                       H5Ldelete(file, "VTKHDF/Polygons/Connectivity", H5P_DEFAULT);
+                 }),
+                 "Connectivity: is not there");
+  expect_refused(
+      changed([](hid_t file) {
+        H5Ldelete(file, "VTKHDF/Polygons/Offsets", H5P_DEFAULT);
+        const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+        const hsize_t size = 3, chunk = 1;
+        H5Pset_chunk(made, 1, &chunk);
+        const hid_t space = H5Screate_simple(1, &size, nullptr);
+        H5Dclose(H5Dcreate2(file, "VTKHDF/Polygons/Offsets", H5T_STD_I64LE, space, H5P_DEFAULT, made, H5P_DEFAULT));
+        H5Sclose(space);
+        H5Pclose(made);
+      }),
+      "VTKHDF/Polygons/Offsets: has numbers that were never written");
+}
+
+TEST_F(Hdf5Frames, WithoutNumberOfPartsNoPartIsLeftOut) {
+  const auto write = [&](const std::vector<double>& part_offsets) {
+    const VtkHdfFile file(folder.path("parts.vtkhdf"));
+    std::vector<double> x(36, 0);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = static_cast<double>(i * i % 7);
+    file.array("VTKHDF/Points", x, {12, 3}, H5T_IEEE_F64LE);
+    file.counts("VTKHDF/NumberOfPoints", {6, 6});
+    file.group("VTKHDF/Polygons");
+    file.counts("VTKHDF/Polygons/NumberOfCells", {2, 2});
+    file.counts("VTKHDF/Polygons/NumberOfConnectivityIds", {6, 6});
+    file.counts("VTKHDF/Polygons/Connectivity", {0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5});
+    file.counts("VTKHDF/Polygons/Offsets", {0, 3, 6, 0, 3, 6});
+    file.group("VTKHDF/Steps");
+    file.attribute("VTKHDF/Steps", "NSteps", {2});
+    file.counts("VTKHDF/Steps/PartOffsets", part_offsets);
+    file.counts("VTKHDF/Steps/PointOffsets", {0, 6});
+    file.array("VTKHDF/Steps/CellOffsets", {0, 0, 0, 0, 0, 0, 2, 0}, {2, 4}, H5T_STD_I64LE);
+    file.array("VTKHDF/Steps/ConnectivityIdOffsets", {0, 0, 0, 0, 0, 0, 6, 0}, {2, 4}, H5T_STD_I64LE);
+    return folder.path("parts.vtkhdf");
+  };
+  expect_refused(write({0, 0}), "VTKHDF/Steps/NumberOfParts: is not there");
+  EXPECT_EQ(json_of({"info", write({0, 1})}, 0)["files"][0]["frames"], 2);
+}
+
+TEST_F(Hdf5Frames, ABodyAndMeshesThatDifferMayBeHdf5) {
+  const std::string obstacle = folder.write("far.obj", "v 9 9 9\nv 10 9 9\nv 9 10 9\nf 1 2 3\n");
+  const Process joined = run_noli({"verify", "--body", "a=" + sample("once.vtkhdf"), "--obstacle", obstacle});
+  EXPECT_EQ(joined.exit_code, 0) << joined.err;
+  test::write_vtkhdf(folder.path("one.vtkhdf"), {0, 0, 0, 1, 0, 0, 0, 1, 0}, 1, {{0, 1, 2}}, H5T_IEEE_F64LE);
+  const Process apart = run_noli({"verify", "--static", good(), folder.path("one.vtkhdf")});
+  EXPECT_EQ(apart.exit_code, 0) << apart.err;
+  EXPECT_NE(apart.out.find("2 meshes at rest"), std::string::npos) << apart.out;
 }
 
 /// An array of 10^12 numbers in a small file: chunks that were never written.
@@ -189,7 +259,7 @@ TEST_F(Hdf5Frames, AHugeArrayAllocatesNothing) {
   H5Dclose(count);
   H5Sclose(single);
   H5Fclose(file);
-  expect_refused(folder.path("huge.vtkhdf"), "more integers than a mesh can need");
+  expect_refused(folder.path("huge.vtkhdf"), "has numbers that were never written");
 }
 
 TEST_F(Hdf5Frames, WithoutTheProgramTheyAreRefused) {

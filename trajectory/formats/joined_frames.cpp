@@ -14,7 +14,8 @@ namespace noli {
 JoinedFrames::JoinedFrames(const std::vector<BodyFrames>& bodies, const FrameReading& reading) {
   std::vector<BodyFrames> in_order = bodies;
   std::stable_partition(in_order.begin(), in_order.end(), [](const BodyFrames& body) { return !body.still; });
-  const FrameReading own = {reading.polygons, reading.keys, {}};
+  FrameReading own = reading;
+  own.bodies.clear();
   for (const BodyFrames& body : in_order) {
     if (std::ranges::count(bodies_, body.name, &FrameBody::name) > 0) {
       throw UsageError(fmt::format("there are two bodies {}; expected different names", on_one_line(body.name)));

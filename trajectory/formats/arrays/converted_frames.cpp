@@ -36,7 +36,8 @@ bool is_hdf5_name(const std::filesystem::path& path) {
 
 ConvertedFrames::ConvertedFrames(const std::vector<std::filesystem::path>& files,
                                  std::shared_ptr<const FrameConverter> converter, PolygonRule rule)
-    : converter_(std::move(converter)), rule_(rule), facts_(files.size()) {
+    : converter_(std::move(converter)), rule_(rule), facts_(files.size()), notes_(files.size()) {
+  std::string mesh;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!is_hdf5_name(files[i])) {
       throw InputError(files[i].string(), "", "is no HDF5 by its name, and files before it are; expected one kind");
@@ -48,11 +49,13 @@ ConvertedFrames::ConvertedFrames(const std::vector<std::filesystem::path>& files
     facts.numbers = look.numbers;
     facts.vertices = look.vertices;
     facts.cells = look.cells;
-    if (look.vertices == facts_[0].vertices && look.cells == facts_[0].cells) continue;
-    throw InputError(
-        facts.file, "",
-        fmt::format("has {} vertices and {} cells, but {} has {} and {}; all frames must have the same mesh",
-                    look.vertices, look.cells, facts_[0].file, facts_[0].vertices, *facts_[0].cells));
+    polygons_.push_back(look.polygons);
+    if (i == 0) mesh = look.mesh;
+    if (look.vertices == facts_[0].vertices && look.mesh == mesh) continue;
+    throw OtherMesh(facts.file, "",
+                    fmt::format("has {} vertices and {} cells, which are not those of {}, {} and {}; all frames must "
+                                "have the same mesh",
+                                look.vertices, look.cells, facts_[0].file, facts_[0].vertices, *facts_[0].cells));
   }
 }
 
@@ -73,6 +76,19 @@ std::string ConvertedFrames::name(std::size_t k) const {
   const Place place = place_of(k);
   const FrameFacts& facts = facts_[place.file];
   return facts.frames == 1 ? facts.file : fmt::format("{}[{}]", facts.file, place.frame);
+}
+
+std::vector<std::string> ConvertedFrames::notes() const {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    const std::string of = facts_.size() == 1 ? "" : facts_[i].file + ": ";
+    for (const std::string& note : notes_[i]) notes.push_back(of + note);
+    if (polygons_[i] > 0 && notes_[i].empty()) {
+      notes.push_back(
+          fmt::format("{}polygons of more than three corners are cut into fans of triangles: {}", of, polygons_[i]));
+    }
+  }
+  return notes;
 }
 
 void ConvertedFrames::look_at(std::size_t k) {
@@ -124,7 +140,7 @@ std::optional<Frame> ConvertedFrames::next() {
     if (stream_->read(place.frame + 1)) {
       throw InputError(facts.file, "", fmt::format("has more than {} frames", facts.frames));
     }
-    for (std::string& note : bytes_->notes()) notes_.insert(std::move(note));
+    notes_[place.file] = bytes_->notes();
     require_unchanged(place.file);
   }
   ++next_;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -30,7 +29,9 @@ class FrameConverter {
  public:
   struct Look {
     std::uint64_t frames = 0, vertices = 0, cells = 0;
-    std::string numbers;  ///< "float64"
+    std::string numbers;         ///< "float64"
+    std::uint64_t polygons = 0;  ///< that are cut
+    std::string mesh;            ///< a hash of the cells
   };
 
   FrameConverter() = default;
@@ -50,7 +51,7 @@ class StreamFrames;
 
 class ConvertedFrames : public FrameSource {
  public:
-  /// Looks at all files. Each may have several frames. Throws what the converter throws.
+  /// Looks at all files. Each may have several frames. Throws what the converter throws, and OtherMesh.
   ConvertedFrames(const std::vector<std::filesystem::path>& files, std::shared_ptr<const FrameConverter> converter,
                   PolygonRule rule);
   ~ConvertedFrames() override;
@@ -61,7 +62,7 @@ class ConvertedFrames : public FrameSource {
   std::optional<Frame> read(std::size_t k) override;
   bool can_begin_again() const override { return true; }
   const std::vector<FrameFacts>& facts() const override { return facts_; }
-  std::vector<std::string> notes() const override { return {notes_.begin(), notes_.end()}; }
+  std::vector<std::string> notes() const override;
 
  private:
   /// A frame's file, and its number in it.
@@ -78,7 +79,8 @@ class ConvertedFrames : public FrameSource {
   std::shared_ptr<const FrameConverter> converter_;
   PolygonRule rule_;
   std::vector<FrameFacts> facts_;
-  std::set<std::string> notes_;
+  std::vector<std::uint64_t> polygons_;          ///< by file
+  std::vector<std::vector<std::string>> notes_;  ///< by file, of those that were read to their end
   std::optional<Mesh> mesh_;
   std::size_t next_ = 0;  ///< the frame that next() gives
   std::optional<std::size_t> open_file_;
