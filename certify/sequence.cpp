@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <noli/sequence.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -21,12 +22,17 @@ SequenceVerifier::SequenceVerifier(SequenceVerifier&&) noexcept = default;
 SequenceVerifier& SequenceVerifier::operator=(SequenceVerifier&&) noexcept = default;
 
 const std::vector<InitialIntersection>& SequenceVerifier::baseline(std::span<const Position> x) {
+  if (!options_.only_new) throw std::logic_error("baseline(): expected only_new");
   if (baseline_) return baseline_->pairs();
   VerifyOptions options = step_options();
   options.initial = true;
   options.first_only = false;
-  options.max_reports = std::numeric_limits<std::size_t>::max();
-  baseline_ = std::make_unique<const Baseline>(mesh_, verify_between(x, x, options).initial_reports);
+  options.max_reports = most_of_baseline;
+  VerifyResult found = verify_between(x, x, options);
+  if (found.initial_intersections > most_of_baseline) {
+    throw std::length_error(fmt::format("more than {} pairs of cells intersect in the first frame", most_of_baseline));
+  }
+  baseline_ = std::make_unique<const Baseline>(mesh_, std::move(found.initial_reports));
   return baseline_->pairs();
 }
 
@@ -56,7 +62,7 @@ VerifyOptions SequenceVerifier::step_options() const {
 StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove) {
   if (options_.only_new) baseline(x_t0);
   VerifyOptions options = step_options();
-  options.prove = prove;
+  options.prove = prove && !baseline_;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -110,6 +111,8 @@ class SequenceVerification : private Verification {
         break;
       }
       if (sequence_.step() == 0) begin();
+      if (stopped()) outcome_.complete = false;  // in the first step, the claim may not be known then
+      if (!outcome_.complete) break;
       require_plane();
       note_rest();
       write_frames();
@@ -212,16 +215,23 @@ class SequenceVerification : private Verification {
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
     verifier_.emplace(std::move(mesh), options());
-    if (request_.only_new) find_baseline();
+    if (request_.only_new && !find_baseline()) return;
     const std::size_t groups = groups_ ? groups_->names.size() : 1;
     labels_ = labels_of_frames(verifier_->mesh(), exclusions(), static_cast<std::uint32_t>(groups), outcome_.baseline);
     outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
   }
 
-  /// Stopped on the way, it leaves the first step to say so.
-  void find_baseline() {
-    outcome_.baseline = verifier_->baseline(sequence_.x_t0());
+  /// False if it was stopped: what was found is then not all.
+  bool find_baseline() {
+    try {
+      const auto& pairs = verifier_->baseline(sequence_.x_t0());
+      if (stopped()) return false;
+      outcome_.baseline = pairs;
+    } catch (const std::length_error& error) {
+      throw InputError(sequence_.name_t0(), "", std::string("--only-new: ") + error.what());
+    }
     outcome_.not_compared.baseline = outcome_.baseline.size();
+    return true;
   }
 
   /// Reads the pairs of groups that are not compared.

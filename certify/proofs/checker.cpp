@@ -55,9 +55,22 @@ std::vector<std::string> CheckerProcess::command(const CheckRequest& request) {
 CheckerProcess::CheckerProcess(const CheckRequest& request)
     : checker_(request.checker),
       stop_(request.stop),
-      limits_{.time = no_limit, .stop = [this] { return stopped(); }, .to_end = {}},
+      proof_(request.proof),
+      progress_(request.progress),
+      limits_{.time = no_limit,
+              .stop =
+                  [this] {
+                    tell_progress();
+                    return stopped();
+                  },
+              .to_end = {}},
       child_(command(request),
              {.in = request.proof ? Child::shared : Child::piped, .out = Child::piped, .err = Child::shared}) {}
+
+void CheckerProcess::tell_progress() const {
+  if (!progress_ || !proof_) return;
+  if (const auto share = child_.share_read(*proof_)) progress_(*share);
+}
 
 bool CheckerProcess::stopped() const {
   return stop_asked().has_value() || (stop_ != nullptr && stop_->load(std::memory_order_relaxed));

@@ -36,10 +36,13 @@ class CheckerProcess {
  private:
   static std::vector<std::string> command(const CheckRequest& request);
   bool stopped() const;
+  void tell_progress() const;
   std::string why();
 
   Checker checker_;
   const std::atomic<bool>* stop_;
+  std::optional<std::filesystem::path> proof_;
+  std::function<void(double)> progress_;
   ProgramLimits limits_;
   bool cut_ = false;  ///< something was not written, after a stop
   Child child_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <noli/errors.h>
+#include "certify/process/child.h"
 #include "integrator/scene/json_text.h"
 #include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/proof_file.h"
@@ -21,7 +22,9 @@ namespace {
 
 constexpr const char* schema = "noli-claim";
 constexpr int schema_version = 1;
-constexpr std::size_t longest_word = 100'000, longest_line = 1'500'000;  // of a command line
+constexpr std::size_t longest_word = 100'000;  // of a command line
+/// Of all pairs: a checker repeats them, and of its output `most_words` are kept.
+constexpr std::size_t longest_list = most_words - 100'000;
 
 bool is_excluded(const LabelPairs& pairs, std::uint32_t a, std::uint32_t b) {
   return pairs.contains({std::min(a, b), std::max(a, b)});
@@ -119,15 +122,15 @@ std::vector<std::pair<std::string, std::string>> values(const Claim& claim) {
   return words;
 }
 
-/// Appends key=value as words for a command line: a list of pairs that is too long for one, as several with the key.
-void append_field(const std::string& key, const std::string& value, std::vector<std::string>& fields) {
+/// Appends excluded=A-B,C-D: a list that is too long for one word as several.
+void append_pairs(const std::string& pairs, std::vector<std::string>& fields) {
   std::size_t begin = 0;
-  while (value.size() - begin > longest_word) {
-    const std::size_t comma = value.rfind(',', begin + longest_word);
-    fields.push_back(key + "=" + value.substr(begin, comma - begin));
+  while (pairs.size() - begin > longest_word) {
+    const std::size_t comma = pairs.rfind(',', begin + longest_word);
+    fields.push_back("excluded=" + pairs.substr(begin, comma - begin));
     begin = comma + 1;
   }
-  fields.push_back(key + "=" + value.substr(begin));
+  fields.push_back("excluded=" + pairs.substr(begin));
 }
 
 /// Reads the members of a claim file one by one.
@@ -149,8 +152,12 @@ class ClaimFile {
       // For a run the pairs are always those of its scene.
       if (key == "excluded" && json.value("motion", Json()) == "run") continue;
       const std::string text = word(key, value);
-      if (text.size() > longest_line) fail("/" + key, "has more pairs than a checker can be asked about");
-      append_field(key, text, fields);
+      const bool pairs = key == "excluded";
+      if (text.size() > (pairs ? longest_list : longest_word)) fail("/" + key, "is longer than a checker can be asked");
+      if (pairs)
+        append_pairs(text, fields);
+      else
+        fields.push_back(key + "=" + text);
     }
     return fields;
   }
@@ -218,6 +225,10 @@ std::optional<Claim> claim_of_words(const std::string& words) {
   return line.empty() ? std::optional(std::move(claim)) : std::nullopt;
 }
 
+bool can_be_asked(const Claim& claim) {
+  return claim.motion == "run" || pairs_text(claim.excluded).size() <= longest_list;
+}
+
 std::vector<std::string> fields_of(const Claim& claim) {
   std::vector<std::string> fields;
   for (const auto& [key, value] : values(claim)) {
@@ -226,10 +237,10 @@ std::vector<std::string> fields_of(const Claim& claim) {
     if (key == "ring" && claim.distance == 0) continue;
     // For a run the pairs are those of its scene by default; they may be too many for a command line.
     if (key == "excluded" && claim.motion == "run") continue;
-    if (value.size() > longest_line) {
-      throw InputError("the claim", key, "has more pairs of labels than a checker can be asked to leave out");
-    }
-    append_field(key, value, fields);
+    if (key == "excluded")
+      append_pairs(value, fields);
+    else
+      fields.push_back(fmt::format("{}={}", key, value));
   }
   return fields;
 }

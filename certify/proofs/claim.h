@@ -17,6 +17,9 @@ namespace noli {
 /// the claim is empty. Precondition: `strict` is set.
 void set_cells(Claim& claim, const Mesh& mesh, std::span<const std::uint32_t> labels, const LabelPairs& excluded);
 
+/// Whether a checker can be asked about it: not if it lists more excluded pairs than fit its words.
+bool can_be_asked(const Claim& claim);
+
 /// The members in the order of the claim's line, with the types of CLAIM.json.
 Json claim_json(const Claim& claim);
 

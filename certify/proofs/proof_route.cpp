@@ -134,6 +134,7 @@ std::unique_ptr<Sink> ProofRoute::to_file() const {
 }
 
 std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
+  if (!can_be_asked(claim)) return std::make_unique<NoSink>();
   checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
   return std::make_unique<CheckerSink>(*checker_);
 }
@@ -142,6 +143,7 @@ std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) con
   if (!can_check_ && request_.lines_in_no_file)
     return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
   if (!can_check_) return "standard input and pipes cannot be read a second time";
+  if (!can_be_asked(outcome.claim)) return "more pairs of cells are left out than a checker can be asked about";
   if (outcome.no_proof) return "no proof was found";
   if (outcome.open_window && !pipe_)
     return "the run ends within a window; resume it first (noli simulate ... --resume)";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "certify/proofs/claim.h"
 #include "proofs/prover/cells/features.h"
@@ -18,13 +19,20 @@ std::vector<std::uint32_t> group_labels(const Mesh& mesh, const Exclusions* excl
   return labels;
 }
 
-/// Gives each cell of the baseline a label of its own.
+/// Gives cells of the baseline labels of their own: one for all of a group that intersect the same cells.
 void label_baseline(const std::vector<InitialIntersection>& baseline, std::uint32_t first_free,
                     std::vector<std::uint32_t>& labels) {
-  std::set<std::uint32_t> cells;
-  for (const auto& [a, b] : baseline) cells.insert({a, b});
-  std::uint32_t label = first_free;
-  for (const std::uint32_t cell : cells) labels[cell] = label++;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> partners;  // of each cell, ascending
+  for (const auto& [a, b] : baseline) {
+    partners[a].push_back(b);
+    partners[b].push_back(a);
+  }
+  std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> known;  // by group and partners
+  for (auto& [cell, others] : partners) {
+    std::ranges::sort(others);
+    const auto next = static_cast<std::uint32_t>(first_free + known.size());
+    labels[cell] = known.try_emplace({labels[cell], std::move(others)}, next).first->second;
+  }
 }
 
 void exclude(std::uint32_t a, std::uint32_t b, LabelPairs& pairs) { pairs.insert({std::min(a, b), std::max(a, b)}); }

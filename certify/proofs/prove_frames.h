@@ -12,7 +12,8 @@
 namespace noli {
 
 /// Labels of cells for what is not compared: groups of vertices have the labels of the groups (`exclusions`, or
-/// nullptr); then each cell of the baseline has a label of its own, from `first_free` on, in the order of cells.
+/// nullptr); then all cells of a group that intersect the same cells of the baseline have a label of their own, from
+/// `first_free` on, in the order of cells.
 CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions, std::uint32_t first_free,
                             const std::vector<InitialIntersection>& baseline);
 

@@ -55,7 +55,7 @@ struct Claim {
 /// The claim that a checker prints after its line of the verdict; nothing if it prints none, or one of another form.
 std::optional<Claim> claim_of_words(const std::string& words);
 
-/// The fields for --require that ask for exactly this claim.
+/// The fields for --require that ask for exactly this claim. A long list of excluded pairs takes several.
 std::vector<std::string> fields_of(const Claim& claim);
 
 /// Those of fields_of() that `noli check` does not ask for by default.
@@ -101,6 +101,8 @@ struct CheckRequest {
   std::vector<std::string> asked = {};      ///< the fields after --require (proofs/FORMAT.md, section 6)
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the checker is ended
   std::filesystem::path programs = {};      ///< the checkers' folder; empty: that of this program
+  /// Called now and then with the share of `proof` that the checker has read, in [0, 1], if the system tells it.
+  std::function<void(double share)> progress = {};
 };
 
 /// Starts a checker on a proof in a file and waits until it ends. Precondition: `proof` is set. Throws Stopped;

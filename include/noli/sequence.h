@@ -93,7 +93,9 @@ class SequenceVerifier {
 
   /// With `only_new`: the pairs of cells that intersect at the positions x of the first frame, in ascending order. All
   /// others are compared. add() and step() look for them in their first frame if it was not called before. If it is
-  /// stopped they are not all there, and the first step is not complete.
+  /// stopped they are not all there, and the first step is not complete. Throws std::logic_error without `only_new`,
+  /// std::length_error for more than most_of_baseline pairs.
+  static constexpr std::size_t most_of_baseline = 1'000'000;
   const std::vector<InitialIntersection>& baseline(std::span<const Position> x);
 
   /// For Noli itself: the options of the prover for a step. `progress` is not among them.

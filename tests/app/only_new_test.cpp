@@ -3,6 +3,9 @@
 // Tests `noli verify --only-new`: what intersects in the first frame is listed and not compared, all else is.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "tests/app/process.h"
 #include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
@@ -93,6 +96,38 @@ TEST_F(OnlyNew, TheResultListsThePairs) {
   words = {"verify", "--no-check"};
   for (const std::string& path : through()) words.push_back(path);
   EXPECT_FALSE(json_of(words, 1).contains("baseline"));
+}
+
+/// A claim file with a word that is no list must not be split for ever.
+TEST_F(OnlyNew, ALongWordInAClaimIsRefused) {
+  const Words frames = apart();
+  ASSERT_EQ(verify(frames, {"--only-new"}).exit_code, 0);
+  const std::string text = R"({"schema": "noli-claim", "version": 1, "cells": ")" + std::string(150'000, 'a') + "\"}";
+  EXPECT_EQ(check(frames, {"--claim", folder.write("long.json", text)}), 3);
+}
+
+/// Triangles that all intersect each other: more pairs than a checker can be asked about.
+TEST_F(OnlyNew, TooManyPairsForACheckerAreDecidedAndNotChecked) {
+  constexpr int count = 600;
+  const auto fan = [&](double height) {
+    std::vector<Position> points;
+    std::vector<std::array<VertexId, 3>> faces;
+    for (int i = 0; i < count; ++i) {
+      const double x = std::cos(0.005 * i), y = std::sin(0.005 * i);
+      const auto v = static_cast<VertexId>(points.size());
+      points.insert(points.end(), {{x, y, -1 - 0.001 * i}, {x, y, 1 + 0.001 * i}, {-x, -y, 0.0001 * i}});
+      faces.push_back({v, v + 1, v + 2});
+    }
+    points.insert(points.end(), {{5, 0, height}, {6, 0, height}, {5, 1, height}});
+    faces.push_back({3 * count, 3 * count + 1, 3 * count + 2});
+    return folder.write("fan_" + std::to_string(points.size() + static_cast<std::size_t>(height)) + ".ply",
+                        ply_text(points, faces));
+  };
+  const Process process = run_noli({"verify", "--only-new", fan(1), fan(2)});
+  EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
+  EXPECT_NE(process.out.find("more pairs of cells are left out than a checker can be asked about"), std::string::npos)
+      << process.out;
+  EXPECT_TRUE(process.verdict_line().starts_with("NO CONTACT  ")) << process.verdict_line();
 }
 
 TEST_F(OnlyNew, WithoutAnyTheClaimIsTheUsualOne) {
