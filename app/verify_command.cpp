@@ -231,8 +231,10 @@ ExitCode verify_each(const VerifyRequest& asked, const VerifyArguments& argument
                     "--body: are about one mesh, but {}",
                     error.what()));
   }
-  const std::vector<report::MeshVerdict> meshes = verify_meshes(asked, arguments.results.json.has_value());
-  output.write("verify-meshes", report::meshes_answer(meshes), report::meshes_json(meshes));
+  const MeshesWanted wanted{arguments.results.json.has_value(), arguments.results.verbose};
+  const std::vector<report::MeshVerdict> meshes = verify_meshes(asked, wanted);
+  output.write("verify-meshes", report::meshes_answer(meshes, wanted.details),
+               wanted.json ? report::meshes_json(meshes) : Json::object());
   return exit_code(report::verdict_of(meshes));
 }
 

@@ -13,19 +13,21 @@
 namespace noli::app {
 namespace {
 
-report::MeshVerdict verify_mesh(VerifyRequest request, bool result, ProgressBars& bars, double done, double share) {
+report::MeshVerdict verify_mesh(VerifyRequest request, MeshesWanted wanted, ProgressBars& bars, double done,
+                                double share) {
   const std::string file = request.frames[0].string();
   ProofRoute route(request);
   request.progress = [&](std::string_view work, double part) { bars.show(work, done + share * part, file); };
   VerifyOutcome outcome = run_verify(request);
   route.check(outcome);
-  return {file, outcome.verdict, report::verify_answer(request, outcome, {"", true}),
-          result ? report::verify_json(request, outcome) : Json()};
+  Json json = wanted.json ? report::verify_json(request, outcome) : Json();
+  report::Answer answer = report::verify_answer(request, outcome, {.result = "", .details = wanted.details});
+  return {file, outcome.verdict, std::move(answer), std::move(outcome.notes), outcome.claim.empty, std::move(json)};
 }
 
 }  // namespace
 
-std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, bool result) {
+std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, MeshesWanted wanted) {
   std::vector<report::MeshVerdict> meshes;
   ProgressBars bars;
   const double share = 1 / static_cast<double>(request.frames.size());
@@ -33,7 +35,7 @@ std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, boo
     VerifyRequest one = request;
     one.frames = {frame};
     one.stop = &interrupted();
-    meshes.push_back(verify_mesh(std::move(one), result, bars, share * static_cast<double>(meshes.size()), share));
+    meshes.push_back(verify_mesh(std::move(one), wanted, bars, share * static_cast<double>(meshes.size()), share));
   }
   return meshes;
 }

@@ -10,8 +10,13 @@
 
 namespace noli::app {
 
-/// Verifies each frame of the request alone. `result`: also keeps what the JSON has of each. Stops when the process is
-/// interrupted; files that were not begun are then undecided. Throws as run_verify().
-std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, bool result);
+/// What is kept of each file.
+struct MeshesWanted {
+  bool json = false, details = false;
+};
+
+/// Verifies each file of the request alone. When the process is interrupted, the files that are left are undecided.
+/// Throws as run_verify() and ProofRoute::check().
+std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, MeshesWanted wanted);
 
 }  // namespace noli::app

@@ -23,14 +23,15 @@ std::string place_of_all(const std::vector<MeshVerdict>& meshes) {
   const auto first = std::ranges::find(meshes, verdict, &MeshVerdict::verdict);
   const std::string some = fmt::format("{} of {} meshes", count_of(meshes, verdict), meshes.size());
   const std::string name = on_one_line(first->file);
+  const auto empty = std::ranges::count(meshes, true, &MeshVerdict::empty);
+  const std::string untouched = fmt::format("{} meshes at rest: nothing touches in any{}", meshes.size(),
+                                            empty == 0 ? "" : fmt::format("; in {} nothing can be compared", empty));
   switch (verdict) {
     case Verdict::contact: return fmt::format("in {} something touches; the first is {}", some, name);
     case Verdict::too_near: return fmt::format("in {} something is too near; the first is {}", some, name);
     case Verdict::undecided: return fmt::format("{} are not settled; the first is {}", some, name);
-    case Verdict::no_contact:
-      return fmt::format("{} meshes: nothing touches in any (decided exactly, not checked)", meshes.size());
-    case Verdict::proved:
-      return fmt::format("{} meshes: nothing touches in any (each accepted by the checker)", meshes.size());
+    case Verdict::no_contact: return untouched + " (decided exactly, not checked)";
+    case Verdict::proved: return untouched + " (each accepted by the checker)";
   }
   return "";
 }
@@ -47,12 +48,13 @@ Json meshes_json(const std::vector<MeshVerdict>& meshes) {
   return json;
 }
 
-Answer meshes_answer(const std::vector<MeshVerdict>& meshes) {
+Answer meshes_answer(const std::vector<MeshVerdict>& meshes, bool details) {
   Answer answer(name(verdict_of(meshes)), {{"meshes", meshes.size()}});
   for (const Verdict verdict : worst_first) answer.add({name(verdict), count_of(meshes, verdict)});
   for (const MeshVerdict& mesh : meshes) {
     answer.text += fmt::format("{}\n  {}\n", on_one_line(mesh.file), mesh.answer.last_line());
-    answer.details += fmt::format("{}\n{}", on_one_line(mesh.file), mesh.answer.words_above(true));
+    for (const std::string& note : mesh.notes) answer.text += fmt::format("  Note: {}.\n", on_one_line(note));
+    if (details) answer.details += fmt::format("{}\n{}", on_one_line(mesh.file), mesh.answer.words_above(true));
   }
   answer.place = place_of_all(meshes);
   return answer;

@@ -16,8 +16,10 @@ namespace noli::report {
 struct MeshVerdict {
   std::string file;
   Verdict verdict = Verdict::undecided;
-  Answer answer;  ///< of noli verify for this file alone
-  Json json;      ///< its result; null if nobody wants it
+  Answer answer;                   ///< of noli verify for this file alone
+  std::vector<std::string> notes;  ///< a line each
+  bool empty = false;              ///< nothing in it can be compared
+  Json json;                       ///< its result; null if nobody wants it
 };
 
 /// The worst of all: contact, too near, undecided, not checked, proved. Precondition: there is one at least.
@@ -26,6 +28,7 @@ Verdict verdict_of(const std::vector<MeshVerdict>& meshes);
 /// Schema verify-meshes.
 Json meshes_json(const std::vector<MeshVerdict>& meshes);
 
-Answer meshes_answer(const std::vector<MeshVerdict>& meshes);
+/// `details`: also what --verbose shows of each.
+Answer meshes_answer(const std::vector<MeshVerdict>& meshes, bool details);
 
 }  // namespace noli::report

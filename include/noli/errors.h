@@ -31,7 +31,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
 };
 
-/// A frame has another mesh than those before it.
+/// A frame has another mesh than those before it: thrown by what reads frames of one mesh.
 struct OtherMesh : InputError {
   using InputError::InputError;
 };

@@ -33,7 +33,9 @@ class Meshes : public testing::Test {
 TEST_F(Meshes, EachHasAVerdictAndAllHaveOne) {
   const Process good = verify({triangle(), apart()});
   EXPECT_EQ(good.exit_code, 0) << good.err;
-  EXPECT_EQ(good.verdict_line(), "PROVED  2 meshes: nothing touches in any (each accepted by the checker)");
+  EXPECT_EQ(good.verdict_line(),
+            "PROVED  2 meshes at rest: nothing touches in any; in 1 nothing can be compared (each accepted by the "
+            "checker)");
   const Process bad = verify({triangle(), crossing(), apart()});
   EXPECT_EQ(bad.exit_code, 1) << bad.err;
   EXPECT_EQ(bad.verdict_line(), "CONTACT  in 1 of 3 meshes something touches; the first is " + crossing());
@@ -41,7 +43,7 @@ TEST_F(Meshes, EachHasAVerdictAndAllHaveOne) {
   EXPECT_NE(bad.out.find(apart() + "\n  PROVED  1 frame at rest: nothing touches"), std::string::npos) << bad.out;
   const Process unchecked = verify({triangle(), apart()}, {"--no-check"});
   EXPECT_EQ(unchecked.exit_code, 0);
-  EXPECT_TRUE(unchecked.verdict_line().starts_with("NO CONTACT  2 meshes")) << unchecked.out;
+  EXPECT_TRUE(unchecked.verdict_line().starts_with("NO CONTACT  2 meshes at rest")) << unchecked.out;
 }
 
 TEST_F(Meshes, TheResultHasThatOfEach) {
