@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <noli/errors.h>
 #include "app/bodies.h"
@@ -10,6 +11,7 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/progress.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/checker.h"
@@ -210,9 +212,14 @@ ExitCode run(CheckArguments& arguments) {
     ask_for_all_windows(trajectory[0], asked, notes);
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
-  const CheckerVerdict verdict =
-      ask({.checker = which, .proof = proof, .trajectory = trajectory_for_checker(trajectory), .asked = asked},
-          arguments.reading);
+  std::optional<ProgressBars> bars(std::in_place);
+  const CheckerVerdict verdict = ask({.checker = which,
+                                      .proof = proof,
+                                      .trajectory = trajectory_for_checker(trajectory),
+                                      .asked = asked,
+                                      .progress = [&](double share) { bars->show("check", share); }},
+                                     arguments.reading);
+  bars.reset();
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
   const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";

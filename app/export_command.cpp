@@ -14,6 +14,7 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/progress.h"
 #include "certify/runs/run_folder.h"
 #include "report/figures/contact_export.h"
 #include "report/figures/run_figure.h"
@@ -141,7 +142,11 @@ ExitCode run(const ExportArguments& arguments) {
   if (!film && (view.from || view.size || !view.zoom.empty())) {
     throw UsageError("--from, --size, --zoom: are of pictures; expected --at, or -o with a pattern that ends in .png");
   }
-  const ExportOutcome outcome = film ? report::run_film({request, view}) : run_export(request);
+  std::optional<ProgressBars> bars(std::in_place);
+  ExportRequest told = request;
+  told.progress = [&](double share) { bars->show("export", share); };
+  const ExportOutcome outcome = film ? report::run_film({told, view}) : run_export(told);
+  bars.reset();
   write_words(export_answer(request, outcome));
   return outcome.interrupted ? ExitCode::undecided : ExitCode::holds;
 }

@@ -16,6 +16,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/output_files.h"
+#include "app/progress.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/runs/run_folder.h"
 #include "report/report_inputs.h"
@@ -118,7 +119,7 @@ class Report {
     read_results();
     put_frames_in_order();
     if (inputs_.run) note_if_being_written(*inputs_.run);
-    if (inputs_.run) report_run(*inputs_.run, arguments_.limits, report_);
+    if (inputs_.run) put_run();
     if (!inputs_.frames.empty()) put_frames();
     if (verified_) put_verdict_of_verify();
     for (const fs::path& path : inputs_.pictures) {
@@ -191,6 +192,13 @@ class Report {
       add("From",
           fmt::format("{}: what noli verify says, its statement and its contacts", report::page_name(verified_->path)));
     }
+  }
+
+  void put_run() {
+    ProgressBars bars;
+    report::ReportLimits limits = arguments_.limits;
+    limits.progress = [&](double share) { bars.show("report", share); };
+    report_run(*inputs_.run, limits, report_);
   }
 
   void put_frames() {

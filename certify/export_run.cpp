@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <vector>
@@ -79,10 +80,12 @@ class Export {
 
   ExportOutcome operator()() {
     outcome_.recorded = reader_.header().record == RecordMode::frames;
+    const auto windows = static_cast<double>(std::max<std::uint64_t>(reader_.look().windows, 1));
     while (auto window = reader_.next_window()) {
       write_frames(*window);
       if (is_interrupted()) break;
       ++outcome_.windows;
+      if (request_.progress) request_.progress(std::min(1.0, static_cast<double>(outcome_.windows) / windows));
       outcome_.end = window->end;
     }
     outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();

@@ -42,8 +42,10 @@ class Run {
         packer_(reader_.mesh().vertex_count, limits.most_bytes) {}
 
   void put(ReportPage& report) {
+    const auto windows = static_cast<double>(std::max<std::uint64_t>(reader_.look().windows, 1));
     while (const auto window = reader_.next_window()) {
       add(*window);
+      if (limits_.progress) limits_.progress(std::min(1.0, static_cast<double>(rows_.size()) / windows));
       stop_if_interrupted(path_);
     }
     report.page["title"] = title_of(path_);

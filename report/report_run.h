@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "report/report_page.h"
 #include "trajectory/formats/frame_source.h"
@@ -14,8 +15,9 @@
 namespace noli::report {
 
 struct ReportLimits {
-  double fps = 60;                     ///< frames a second of simulated time, at most
-  std::size_t most_bytes = 9'000'000;  ///< of the packed motion
+  double fps = 60;                                  ///< frames a second of simulated time, at most
+  std::size_t most_bytes = 9'000'000;               ///< of the packed motion
+  std::function<void(double share)> progress = {};  ///< called with the share of the windows that is done, in [0, 1]
 };
 
 /// Fills title, verdict, facts, scene and plots. Throws InputError (no run, a damaged one), ReadInterrupted. The

@@ -245,4 +245,22 @@ std::uint64_t Child::resident_bytes() const {
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+std::optional<double> Child::share_read(const std::filesystem::path& file) const {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path process = fs::path("/proc") / std::to_string(pid_);
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error || size == 0) return std::nullopt;
+  for (fs::directory_iterator at_descriptor(process / "fd", error), end; !error && at_descriptor != end;
+       at_descriptor.increment(error)) {
+    std::error_code gone;
+    if (!fs::equivalent(at_descriptor->path(), file, gone)) continue;
+    std::ifstream info(process / "fdinfo" / at_descriptor->path().filename());
+    std::string word;
+    std::uint64_t at = 0;
+    if (info >> word >> at && word == "pos:") return std::min(1.0, static_cast<double>(at) / static_cast<double>(size));
+  }
+  return std::nullopt;
+}
+
 }  // namespace noli

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -130,6 +131,8 @@ class Child {
   /// The processor time of all its threads so far.
   std::chrono::nanoseconds computed() const;
   std::uint64_t resident_bytes() const;
+  /// The share of a file that it has read, in [0, 1]: where it is in it. Nothing if it does not have the file open.
+  std::optional<double> share_read(const std::filesystem::path& file) const;
 
   std::string out, err;  ///< what was read and not taken yet
 

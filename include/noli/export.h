@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace noli {
@@ -28,6 +29,7 @@ struct ExportRequest {
   double fps = 60;
   std::string pattern;  ///< with one %d or %0Nd, where the number of the frame goes; its ending names the format
   bool force = false;   ///< existing files of that pattern may be replaced or removed
+  std::function<void(double share)> progress = {};  ///< called with the share of the windows that is done, in [0, 1]
 };
 
 struct ExportOutcome {

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <system_error>
 
+#include "tests/support/temporary_folder.h"
+
 namespace noli {
 namespace {
 
@@ -23,6 +25,17 @@ TEST(Children, ItsEndIsAskedForOnce) {
   EXPECT_TRUE(child.finish({}).exited_with(0));
   EXPECT_TRUE(child.has_ended());
   EXPECT_THROW(child.finish({}), std::system_error);
+}
+
+TEST(Children, HowMuchOfAFileItHasReadIsTold) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("file", std::string(1'000'000, 'x')), other = folder.write("other", "x");
+  Child child({"/bin/sh", "-c", "exec 5<'" + file + "'; dd bs=250000 count=1 of=/dev/null <&5 2>&1; exec sleep 60"},
+              {.out = Child::piped});
+  while (child.out.empty()) child.look(std::chrono::milliseconds(10));  // dd reports at its end
+  EXPECT_EQ(child.share_read(file), 0.25);
+  EXPECT_EQ(child.share_read(other), std::nullopt) << "it has not opened this one";
+  EXPECT_EQ(child.share_read(folder / "missing"), std::nullopt);
 }
 
 TEST(Children, OneThatSomebodyElseWaitedForIsAnErrorAndNoEnd) {
