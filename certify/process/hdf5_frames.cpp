@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <optional>
 #include <sstream>
@@ -31,6 +32,10 @@ class Reading {
  public:
   Reading(const std::filesystem::path& program, const char* what, std::filesystem::path file, PolygonRule rule)
       : file_(std::move(file)) {
+    std::error_code error;
+    if (std::filesystem::exists(file_, error) && !std::filesystem::is_regular_file(file_, error)) {
+      throw InputError(file_.string(), "", "is no regular file; expected one, as HDF5 is not read in its order");
+    }
     input_.take(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (input_.get() < 0)
       throw InputError(file_.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)));
@@ -66,6 +71,9 @@ class Reading {
     const ProgramEnd end = child_->finish({.stop = [] { return stop_asked().has_value(); }, .to_end = {}});
     child_.reset();
     if (end.kind == ProgramEnd::Kind::stopped) end_if_stopped();
+    if (end.kind == ProgramEnd::Kind::signalled && end.code == SIGXCPU) {
+      throw InputError(file_.string(), "", "HDF5 comes to no end with it; it is damaged, or has too many parts");
+    }
     if (end.exited_with(3)) throw InputError(file_.string(), "", first_line(end.err));
     if (!end.exited_with(0)) {
       const bool said = end.kind == ProgramEnd::Kind::exited && !end.err.empty();

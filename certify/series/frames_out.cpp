@@ -195,6 +195,7 @@ class SeriesFrames {
     if (!file.has("mesh")) {
       throw BadInput("mesh", "is not there: an earlier Noli wrote this; `noli export RUN` writes frames");
     }
+    if (shape[0] == 0) throw BadInput(positions_.name(), "has no frame");
     mesh_.vertex_count = shape[1];
     mesh_.faces = cells_of<3>(file, "mesh/faces", shape[1]);
     mesh_.edges = cells_of<2>(file, "mesh/edges", shape[1]);

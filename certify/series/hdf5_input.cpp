@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 #include "certify/series/descriptor_driver.h"
@@ -51,6 +52,9 @@ std::vector<std::uint64_t> shape_of(hid_t dataset, const std::string& name) {
   return {lengths.begin(), lengths.begin() + rank};
 }
 
+/// As for members of .npz files.
+constexpr double most_unpacked = 1e9, most_ratio = 200;
+
 bool is_allocated(hid_t dataset) {
   H5D_space_status_t status = H5D_SPACE_STATUS_ERROR;
   return H5Dget_space_status(dataset, &status) >= 0 && status == H5D_SPACE_STATUS_ALLOCATED;
@@ -80,6 +84,12 @@ void require_own_data(hid_t dataset, const std::string& name) {
   const bool chunked = H5Pget_layout(*made) == H5D_CHUNKED;
   const bool whole = chunked ? has_all_chunks(dataset, *made, *space) : is_allocated(dataset);
   if (H5Sget_simple_extent_npoints(*space) > 0 && !whole) throw BadInput(name, "has numbers that were never written");
+  const Handle type(require(H5Dget_type(dataset), name, "its type cannot be read"), H5Tclose);
+  const auto unpacked =
+      static_cast<double>(H5Sget_simple_extent_npoints(*space)) * static_cast<double>(H5Tget_size(*type));
+  if (unpacked > most_unpacked && unpacked > most_ratio * static_cast<double>(H5Dget_storage_size(dataset))) {
+    throw BadInput(name, "is longer than 1 GB and was packed to less than a two hundredth");
+  }
 }
 
 /// Whether there is an object of this name. Throws BadInput unless hard links lead to it, which stay in the file: what is
@@ -93,6 +103,13 @@ bool is_there(hid_t file, const std::string& path) {
     if (link.type != H5L_TYPE_HARD) throw BadInput(part, "is a soft or external link; expected the object itself");
     if (end == std::string::npos) return true;
   }
+}
+
+/// Other letters as question marks: messages repeat the text.
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
 }
 
 struct Attribute {
@@ -193,15 +210,15 @@ std::string Hdf5Input::text(const std::string& group, const std::string& attribu
   if (H5Tis_variable_str(*text.type) > 0) {
     char* letters = nullptr;
     text.read(*text.type, static_cast<void*>(&letters));
-    std::string result = letters == nullptr ? "" : letters;
+    std::string result = letters == nullptr ? "" : std::string(letters, ::strnlen(letters, most_letters));
     H5free_memory(letters);
-    return result;
+    return printable(result);
   }
   const std::size_t size = H5Tget_size(*text.type);
   if (size > most_letters) throw BadInput(text.name, "is too long");
   std::string result(size, '\0');
   text.read(*text.type, result.data());
-  return result.substr(0, result.find('\0'));
+  return printable(result.substr(0, result.find('\0')));
 }
 
 std::vector<std::int64_t> Hdf5Input::integers(const std::string& group, const std::string& attribute) const {

@@ -8,6 +8,9 @@
 // HDF5 is linked to this program and not to noli: it brings many other libraries, ends the process when a disk is full
 // or memory runs out, and is not made for hostile files. The program gets no file names, and has limits of its own.
 #include <fcntl.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -29,6 +32,7 @@ namespace {
 
 /// For writing, little memory is enough: pieces are small, and HDF5 keeps little of arrays without chunks. For reading,
 /// a mesh and a frame.
+constexpr rlim_t seconds_to_look = 30;
 constexpr rlim_t memory_to_write = rlim_t{1} << 30, memory_to_read = rlim_t{1} << 33;
 
 void limit_memory(rlim_t most) {
@@ -38,6 +42,21 @@ void limit_memory(rlim_t most) {
   limit.rlim_cur = most;
   if (::setrlimit(RLIMIT_AS, &limit) != 0) end_with(Ending::failure, "memory cannot be limited");
 #endif
+}
+
+/// Nobody waits for the answer of a program whose noli has been killed.
+void end_with_parent() {
+#ifdef __linux__
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+}
+
+/// A damaged file can send the library round in circles. To look at a file reads no positions, so it takes little.
+void limit_time_of_look() {
+  struct rlimit limit = {};
+  if (::getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur <= seconds_to_look) return;
+  limit.rlim_cur = seconds_to_look;
+  if (::setrlimit(RLIMIT_CPU, &limit) != 0) end_with(Ending::failure, "time cannot be limited");
 }
 
 void require_input(int descriptor) {
@@ -78,6 +97,7 @@ void write() {
 
 void read(std::string_view what, std::string_view polygons) {
   require_input(STDIN_FILENO);
+  if (what == "look") limit_time_of_look();
   const auto answer = what == "look" ? write_look : write_frames;
   try {
     answer(STDIN_FILENO, STDOUT_FILENO, polygons == "refuse" ? PolygonRule::refuse : PolygonRule::fan);
@@ -101,6 +121,7 @@ int main(int argc, char** argv) {
         "usage: noli_series write <STREAM 1<>FILE.h5, or noli_series frames|look fan|refuse <FILE.vtkhdf >ARRAYS (noli "
         "starts it by itself)");
   }
+  end_with_parent();
   std::signal(SIGXFSZ, SIG_IGN);  // so that write() fails at the size limit instead
   std::set_terminate([] { end_with(Ending::failure, "internal error"); });
   limit_memory(to_write ? memory_to_write : memory_to_read);

@@ -54,6 +54,7 @@ VtkHdf::VtkHdf(const Hdf5Input& file) : file_(file), points_(file.array(root + "
     throw BadInput(root, "is of type " + type + "; expected PolyData or UnstructuredGrid");
   }
   in_steps_ = file.has(steps_group);
+  parts_are_told_ = in_steps_ && file.has(steps_group + "/NumberOfParts");
   if (in_steps_) steps_ = count_of(file.integers(steps_group, "NSteps")[0], steps_group + ".NSteps");
   if (steps_ > most_steps) throw BadInput(steps_group, "has too many steps");
   if (!in_steps_) require_all_used();
@@ -95,7 +96,7 @@ Rows VtkHdf::parts_of(std::uint64_t step) const {
   if (!in_steps_) return {0, all};
   const std::uint64_t first = begin("PartOffsets", step, 0);
   std::uint64_t count = 1;
-  if (file_.has(steps_group + "/NumberOfParts")) {
+  if (parts_are_told_) {
     count = begin("NumberOfParts", step, 0);
   } else if (all != 1 && !(all == steps_ && first == step)) {
     throw BadInput(steps_group + "/NumberOfParts", "is not there, and there are several parts");
@@ -108,9 +109,17 @@ Rows VtkHdf::parts_of(std::uint64_t step) const {
 
 std::uint64_t VtkHdf::begin(const char* name, std::uint64_t step, std::size_t column) const {
   if (!in_steps_) return 0;
-  const Hdf5Array array = file_.array(steps_group + "/" + name);
-  if (array.row() <= column || array.row() > 16) throw BadInput(array.name(), "expected another number of columns");
-  return count_of(array.integers(step, 1)[column], array.name());
+  const std::string path = steps_group + "/" + name;
+  auto known = by_step_.find(name);
+  if (known == by_step_.end()) {
+    const Hdf5Array array = file_.array(path);
+    if (array.row() > 16) throw BadInput(path, "expected another number of columns");
+    known = by_step_.emplace(name, ByStep{array.row(), array.integers(0, array.shape()[0])}).first;
+  }
+  const auto& [columns, numbers] = known->second;
+  if (columns <= column) throw BadInput(path, "expected another number of columns");
+  if (step >= numbers.size() / columns) throw BadInput(path, "has no row for step " + std::to_string(step));
+  return count_of(numbers[static_cast<std::size_t>(step * columns + column)], path);
 }
 
 Rows VtkHdf::points_of(std::uint64_t step) const {

@@ -10,7 +10,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <noli/mesh.h>
@@ -62,6 +64,13 @@ class VtkHdf {
   Hdf5Array points_;
   std::uint64_t steps_ = 1;
   bool in_steps_ = false;
+  bool parts_are_told_ = false;  ///< by NumberOfParts
+  /// Of the arrays in Steps that were asked for, by name: all numbers, row by row.
+  struct ByStep {
+    std::uint64_t columns;
+    std::vector<std::int64_t> numbers;
+  };
+  mutable std::map<std::string, ByStep> by_step_;
   std::vector<std::int64_t> points_by_part_;
   std::vector<Topology> topologies_;
 };

@@ -32,8 +32,12 @@ TEST(Children, HowMuchOfAFileItHasReadIsTold) {
   const std::string file = folder.write("file", std::string(1'000'000, 'x')), other = folder.write("other", "x");
   Child child({"/bin/sh", "-c", "exec 5<'" + file + "'; dd bs=250000 count=1 of=/dev/null <&5 2>&1; exec sleep 60"},
               {.out = Child::piped});
-  while (child.out.empty()) child.look(std::chrono::milliseconds(10));  // dd reports at its end
-  EXPECT_EQ(child.share_read(file), 0.25);
+  std::optional<double> share;
+  for (int looks = 0; looks < 1000 && share.value_or(0) < 0.25; ++looks) {
+    child.look(std::chrono::milliseconds(10));
+    share = child.share_read(file);
+  }
+  EXPECT_EQ(share, 0.25);
   EXPECT_EQ(child.share_read(other), std::nullopt) << "it has not opened this one";
   EXPECT_EQ(child.share_read(folder / "missing"), std::nullopt);
 }

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 /// The same error, with the number of the frame.
 template <class Error>
 Error of_frame(const Error& error, const std::string& path, std::size_t k, std::size_t count) {
+  if (count == 1) return error;
   return {path, "", fmt::format("{} (frame {} of {})", message_without_name(error.what(), path), k + 1, count)};
 }
 

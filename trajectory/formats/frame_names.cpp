@@ -45,8 +45,9 @@ Paths files_of(const fs::path& folder, const fs::path& given, const Wanted& want
 }
 
 Paths of_folder(const fs::path& folder) {
+  const auto has_frames = [](const fs::path& name) { return is_frame_name(name) || extension_of(name) == ".vtkhdf"; };
   Paths files = files_of(folder, folder,
-                         [](const fs::path& name) { return is_frame_name(name) && !name.string().starts_with('.'); });
+                         [&](const fs::path& name) { return has_frames(name) && !name.string().starts_with('.'); });
   if (files.empty()) return {folder};  // perhaps a run that nobody has written to yet
   files = sorted_by_numbers(std::move(files));
   const std::string extension = extension_of(files.front());

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include <noli/frames.h>
-#include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/arrays/byte_stream.h"
-#include "trajectory/formats/frame_source.h"
+#include "trajectory/formats/stored_frames.h"
 
 namespace noli {
 
@@ -49,7 +48,7 @@ bool is_hdf5_name(const std::filesystem::path& path);
 
 class StreamFrames;
 
-class ConvertedFrames : public FrameSource {
+class ConvertedFrames : public StoredFrames {
  public:
   /// Looks at all files. Each may have several frames. Throws what the converter throws, and OtherMesh.
   ConvertedFrames(const std::vector<std::filesystem::path>& files, std::shared_ptr<const FrameConverter> converter,
@@ -57,11 +56,8 @@ class ConvertedFrames : public FrameSource {
   ~ConvertedFrames() override;
 
   std::optional<std::size_t> count() const override;
-  std::string name(std::size_t k) const override;
-  void look_at(std::size_t k) override;
   std::optional<Frame> read(std::size_t k) override;
   bool can_begin_again() const override { return true; }
-  const std::vector<FrameFacts>& facts() const override { return facts_; }
   std::vector<std::string> notes() const override;
 
  private:
@@ -71,14 +67,12 @@ class ConvertedFrames : public FrameSource {
   };
 
   Place place_of(std::size_t k) const;
-  void look_at_file(std::size_t file);
-  void require_unchanged(std::size_t file) const;
   void open(std::size_t file);
   std::optional<Frame> next();
+  void end_file(Place last);
 
   std::shared_ptr<const FrameConverter> converter_;
   PolygonRule rule_;
-  std::vector<FrameFacts> facts_;
   std::vector<std::uint64_t> polygons_;          ///< by file
   std::vector<std::vector<std::string>> notes_;  ///< by file, of those that were read to their end
   std::optional<Mesh> mesh_;
