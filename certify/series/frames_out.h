@@ -13,8 +13,8 @@ namespace noli::series {
 void write_frames(int input, int output, PolygonRule rule);
 
 /// Writes a line about them, without the frames: "60 1000 1922 float64 0 HASH", the numbers of frames, of vertices and
-/// cells of each, the type of coordinates, how many polygons are cut, and the SHA-256 of the cells. Throws BadInput when
-/// frames are not of one mesh.
+/// cells of each, the type of coordinates, how many polygons are cut, and the SHA-256 of the cells. Throws BadInput
+/// when frames are not of one mesh.
 void write_look(int input, int output, PolygonRule rule);
 
 }  // namespace noli::series

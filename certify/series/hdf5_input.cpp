@@ -73,8 +73,8 @@ bool has_all_chunks(hid_t dataset, hid_t made, hid_t space) {
   return H5Dget_num_chunks(dataset, space, &there) >= 0 && there == expected;
 }
 
-/// Throws unless all numbers are in the file itself: not in others, and not in chunks that were never written, which the
-/// library reads as zeros.
+/// Throws unless all numbers are in the file itself: not in others, and not in chunks that were never written, which
+/// the library reads as zeros.
 void require_own_data(hid_t dataset, const std::string& name) {
   const Handle made(require(H5Dget_create_plist(dataset), name, "cannot be read"), H5Pclose);
   if (H5Pget_external_count(*made) != 0 || H5Pget_layout(*made) == H5D_VIRTUAL) {
@@ -92,8 +92,8 @@ void require_own_data(hid_t dataset, const std::string& name) {
   }
 }
 
-/// Whether there is an object of this name. Throws BadInput unless hard links lead to it, which stay in the file: what is
-/// there under another kind of link must not count as missing.
+/// Whether there is an object of this name. Throws BadInput unless hard links lead to it, which stay in the file: what
+/// is there under another kind of link must not count as missing.
 bool is_there(hid_t file, const std::string& path) {
   for (std::size_t end = path.find('/');; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);

@@ -29,8 +29,8 @@ struct CellLabels {
   bool leave_out(std::uint32_t i, std::uint32_t j) const { return excludes(of[i], of[j]); }
 };
 
-/// The labels of a run: 2 g + s for each cell, with g its group and s = 1 if all its vertices are scripted. Cells are not
-/// compared if both are scripted, or if their groups are excluded. `scripted`: as in WindowOptions.
+/// The labels of a run: 2 g + s for each cell, with g its group and s = 1 if all its vertices are scripted. Cells are
+/// not compared if both are scripted, or if their groups are excluded. `scripted`: as in WindowOptions.
 CellLabels labels_of_run(const Mesh& mesh, std::span<const std::uint8_t> scripted, const Exclusions& exclusions);
 
 }  // namespace noli
