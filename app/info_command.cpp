@@ -91,7 +91,7 @@ Json motion_info(const std::filesystem::path& path) {
   info.format = is_hdf5_name(path) ? "HDF5" : is_array_name(path) ? "numpy" : "block file of frames";
   info.number_type = source->facts()[0].numbers;
   Json json = mesh_json(path, info);
-  json["frames"] = source->count().value_or(1);
+  json["frames"] = source->count().value();
   return json;
 }
 

@@ -221,7 +221,7 @@ ExitCode verify_all(VerifyArguments& arguments, const Output& output) {
 }
 
 /// Files with different meshes, each at rest.
-ExitCode verify_each(const VerifyRequest& asked, const VerifyArguments& arguments, const Output& output,
+ExitCode verify_each(VerifyRequest asked, const VerifyArguments& arguments, const Output& output,
                      const OtherMesh& error) {
   const bool single = asked.proof || asked.trajectory || arguments.claim_out || arguments.junit || arguments.github ||
                       asked.only_new || asked.merge_identical || asked.ignore || !asked.reading.bodies.empty();
@@ -232,7 +232,7 @@ ExitCode verify_each(const VerifyRequest& asked, const VerifyArguments& argument
                     error.what()));
   }
   const MeshesWanted wanted{arguments.results.json.has_value(), arguments.results.verbose};
-  const std::vector<report::MeshVerdict> meshes = verify_meshes(asked, wanted);
+  const std::vector<report::MeshVerdict> meshes = verify_meshes(std::move(asked), wanted);
   output.write("verify-meshes", report::meshes_answer(meshes, wanted.details),
                wanted.json ? report::meshes_json(meshes) : Json::object());
   return exit_code(report::verdict_of(meshes));
@@ -271,12 +271,12 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
   inputs = {};  // paths of 10,000 frames are megabytes
-  const VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
+  VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
   try {
     return verify_all(arguments, output);
   } catch (const OtherMesh& error) {
     if (!request.constant_motion) throw;
-    return verify_each(asked, arguments, output, error);
+    return verify_each(std::move(asked), arguments, output, error);
   }
 }
 

@@ -27,14 +27,15 @@ report::MeshVerdict verify_mesh(VerifyRequest request, MeshesWanted wanted, Prog
 
 }  // namespace
 
-std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, MeshesWanted wanted) {
+std::vector<report::MeshVerdict> verify_meshes(VerifyRequest request, MeshesWanted wanted) {
   std::vector<report::MeshVerdict> meshes;
   ProgressBars bars;
-  const double share = 1 / static_cast<double>(request.frames.size());
-  for (const auto& frame : request.frames) {
+  const auto files = std::exchange(request.frames, {});  // not copied for each of them
+  const double share = 1 / static_cast<double>(files.size());
+  request.stop = &interrupted();
+  for (const auto& file : files) {
     VerifyRequest one = request;
-    one.frames = {frame};
-    one.stop = &interrupted();
+    one.frames = {file};
     meshes.push_back(verify_mesh(std::move(one), wanted, bars, share * static_cast<double>(meshes.size()), share));
   }
   return meshes;

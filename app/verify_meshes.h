@@ -17,6 +17,6 @@ struct MeshesWanted {
 
 /// Verifies each file of the request alone. When the process is interrupted, the files that are left are undecided.
 /// Throws as run_verify() and ProofRoute::check().
-std::vector<report::MeshVerdict> verify_meshes(const VerifyRequest& request, MeshesWanted wanted);
+std::vector<report::MeshVerdict> verify_meshes(VerifyRequest request, MeshesWanted wanted);
 
 }  // namespace noli::app

@@ -216,8 +216,7 @@ class SequenceVerification : private Verification {
     outcome_.points = mesh.points.size();
     verifier_.emplace(std::move(mesh), options());
     if (request_.only_new && !find_baseline()) return;
-    const std::size_t groups = groups_ ? groups_->names.size() : 1;
-    labels_ = labels_of_frames(verifier_->mesh(), exclusions(), static_cast<std::uint32_t>(groups), outcome_.baseline);
+    labels_ = labels_of_frames(verifier_->mesh(), exclusions(), outcome_.baseline);
     outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
   }
 

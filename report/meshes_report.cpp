@@ -7,6 +7,7 @@
 #include <array>
 
 #include <noli/errors.h>
+
 namespace noli::report {
 namespace {
 
@@ -17,7 +18,7 @@ std::size_t count_of(const std::vector<MeshVerdict>& meshes, Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(meshes, verdict, &MeshVerdict::verdict));
 }
 
-/// "in 2 of 5 meshes something touches: b.ply is the first".
+/// "in 2 of 5 meshes something touches; the first is b.ply".
 std::string place_of_all(const std::vector<MeshVerdict>& meshes) {
   const Verdict verdict = verdict_of(meshes);
   const auto first = std::ranges::find(meshes, verdict, &MeshVerdict::verdict);

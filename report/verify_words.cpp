@@ -84,7 +84,8 @@ class Words {
     if (!request_.only_new || outcome_.claim.cells.empty()) return;
     line("Not compared: {}{}", baseline_text(outcome_.not_compared), outcome_.baseline.empty() ? "." : ":");
     const auto& pairs = outcome_.baseline;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t said = wanted_.details ? pairs.size() : std::min(most_intersections, pairs.size());
+    for (std::size_t i = 0; i < said; ++i) {
       listed(i, most_intersections, fmt::format("  cells {} and {}\n", pairs[i].first_cell, pairs[i].second_cell));
     }
     if (pairs.size() > most_intersections) line("  ... and {} more (-v)", pairs.size() - most_intersections);

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -16,7 +15,7 @@
 
 #include <noli/errors.h>
 #include "certify/process/child.h"
-#include "certify/process/this_program.h"
+#include "certify/runs/series_process.h"
 #include "trajectory/formats/arrays/converted_frames.h"
 #include "trajectory/formats/open_frames.h"
 #include "trajectory/stop.h"
@@ -131,8 +130,8 @@ class SeriesConverter : public FrameConverter {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_all_frames(const std::vector<std::filesystem::path>& names, FrameReading reading) {
-  const std::filesystem::path program = beside_this_program("noli_series");
-  if (::access(program.c_str(), X_OK) == 0) reading.hdf5 = std::make_shared<const SeriesConverter>(program);
+  const SeriesProgram program = series_program();
+  if (program.available()) reading.hdf5 = std::make_shared<const SeriesConverter>(program.file);
   return open_frames(names, reading);
 }
 

@@ -20,8 +20,9 @@ std::vector<std::uint32_t> group_labels(const Mesh& mesh, const Exclusions* excl
 }
 
 /// Gives cells of the baseline labels of their own: one for all of a group that intersect the same cells.
-void label_baseline(const std::vector<InitialIntersection>& baseline, std::uint32_t first_free,
-                    std::vector<std::uint32_t>& labels) {
+void label_baseline(const std::vector<InitialIntersection>& baseline, std::vector<std::uint32_t>& labels) {
+  if (baseline.empty()) return;
+  const std::uint32_t first_free = *std::ranges::max_element(labels) + 1;
   std::map<std::uint32_t, std::vector<std::uint32_t>> partners;  // of each cell, ascending
   for (const auto& [a, b] : baseline) {
     partners[a].push_back(b);
@@ -57,11 +58,11 @@ ProofHeader header_of(const VerifyRequest& request, const Claim& claim, const Id
 
 }  // namespace
 
-CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions, std::uint32_t first_free,
+CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions,
                             const std::vector<InitialIntersection>& baseline) {
   const std::vector<std::uint32_t> groups = group_labels(mesh, exclusions);
   CellLabels labels{groups, {}};
-  label_baseline(baseline, first_free, labels.of);
+  label_baseline(baseline, labels.of);
   for (const auto& [a, b] : baseline) exclude(labels.of[a], labels.of[b], labels.excluded);
   if (exclusions == nullptr) return labels;
   std::map<std::uint32_t, std::set<std::uint32_t>> of_group;

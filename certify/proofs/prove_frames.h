@@ -12,9 +12,9 @@
 namespace noli {
 
 /// Labels of cells for what is not compared: groups of vertices have the labels of the groups (`exclusions`, or
-/// nullptr); then all cells of a group that intersect the same cells of the baseline have a label of their own, from
-/// `first_free` on, in the order of cells.
-CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions, std::uint32_t first_free,
+/// nullptr); then all cells of a group that intersect the same cells of the baseline have a label of their own, above
+/// those, in the order of cells.
+CellLabels labels_of_frames(const Mesh& mesh, const Exclusions* exclusions,
                             const std::vector<InitialIntersection>& baseline);
 
 /// The claim that is asked for. `outcome`: what is known about the frames before the first step.

@@ -79,6 +79,8 @@ struct Contents {
 std::string hash_of(const Mesh& mesh) {
   Sha256 hash;
   const auto add = [&hash](const auto& cells) {
+    const std::string count = fmt::format("{} ", cells.size());
+    hash.update(count);
     hash.update({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof cells[0]});
   };
   add(mesh.faces);

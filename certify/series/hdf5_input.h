@@ -59,7 +59,7 @@ class Hdf5Input {
 
   /// Whether there is a group or an array of this name: "VTKHDF/Points". Throws BadInput for links to it.
   bool has(const std::string& path) const;
-  /// Throws BadInput if there is none, or one that is not read.
+  /// Throws BadInput if the array is missing, has an unsupported type, or has numbers in other files.
   Hdf5Array array(const std::string& path) const;
 
   /// An attribute of a group. Throws BadInput.

@@ -30,9 +30,9 @@
 namespace noli::series {
 namespace {
 
-/// For writing, little memory is enough: pieces are small, and HDF5 keeps little of arrays without chunks. For reading,
-/// a mesh and a frame.
 constexpr rlim_t seconds_to_look = 30;
+/// Writing needs little memory: pieces are small, and HDF5 keeps little of arrays without chunks. Reading needs a mesh
+/// and a frame.
 constexpr rlim_t memory_to_write = rlim_t{1} << 30, memory_to_read = rlim_t{1} << 33;
 
 void limit_memory(rlim_t most) {

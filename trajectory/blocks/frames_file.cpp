@@ -19,7 +19,7 @@ namespace {
 
 constexpr FourLetters frames_content = four_letters("FRMS");
 
-/// Magic, version and content; empty for what is no file, or too short.
+/// The magic, version and content of a file. Empty if it is not a regular file or is too short.
 std::string head_of(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return "";

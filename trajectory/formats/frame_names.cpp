@@ -45,6 +45,7 @@ Paths files_of(const fs::path& folder, const fs::path& given, const Wanted& want
 }
 
 Paths of_folder(const fs::path& folder) {
+  // Not .h5: the folder of a run has its series.h5.
   const auto has_frames = [](const fs::path& name) { return is_frame_name(name) || extension_of(name) == ".vtkhdf"; };
   Paths files = files_of(folder, folder,
                          [&](const fs::path& name) { return has_frames(name) && !name.string().starts_with('.'); });

@@ -37,7 +37,8 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   }
   if (!names.empty() && is_hdf5_name(names[0])) {
     if (reading.hdf5 == nullptr) {
-      throw InputError(names[0].string(), "", "is HDF5, which noli_series reads; there is none beside this program");
+      throw InputError(names[0].string(), "",
+                       "is an HDF5 file; expected noli_series beside noli to read it (build with NOLI_WITH_HDF5=ON)");
     }
     return std::make_unique<ConvertedFrames>(names, reading.hdf5, reading.polygons);
   }

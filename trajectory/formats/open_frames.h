@@ -14,10 +14,9 @@ namespace noli {
 /// Whether a file has frames, by its name or its first bytes.
 bool holds_frames(const std::filesystem::path& path);
 
-/// `names`: files in the order of time: PLY and OBJ, one block file of frames, one .npz, or .npy files, - for standard
-/// input. Throws InputError
-/// for what is no frame by its name, and for headers that are not as they have to be; reads no frame yet.
-/// `reading.bodies`: these, joined, instead of `names`.
+/// `names`: files in the order of time (PLY, OBJ, VTU and VTP; .npy; HDF5), one .npz, one block file of frames, or -
+/// for standard input. `reading.bodies`: these, joined, instead of `names`. Reads no frame yet. Throws InputError for an
+/// unknown kind of file and for bad headers.
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names,
                                          const FrameReading& reading = {});
 

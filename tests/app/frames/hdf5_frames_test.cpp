@@ -269,7 +269,7 @@ TEST_F(Hdf5Frames, WithoutTheProgramTheyAreRefused) {
   fs::copy_file(NOLI_COMMAND, options.program);
   const Process process = run_noli({"verify", "--static", good()}, options);
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("is HDF5, which noli_series reads; there is none beside this program"), std::string::npos)
+  EXPECT_NE(process.err.find("is an HDF5 file; expected noli_series beside noli to read it"), std::string::npos)
       << process.err;
 }
 

@@ -12,6 +12,7 @@
 #include "trajectory/formats/frames.h"
 
 namespace noli {
+
 bool is_hdf5_name(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 4> extensions = {".vtkhdf", ".hdf", ".hdf5", ".h5"};
   return std::ranges::count(extensions, extension_of(path)) > 0;
