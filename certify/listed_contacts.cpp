@@ -45,6 +45,12 @@ std::span<const VertexId> feature(const FeatureContact& contact, std::size_t whi
   return which == 0 ? all.first(first) : all.subspan(first);
 }
 
+/// Two faces of the same vertices have equal contacts.
+void erase_one(std::vector<FeatureContact>& contacts, const FeatureContact& contact) {
+  const auto found = std::ranges::find(contacts, contact);
+  if (found != contacts.end()) contacts.erase(found);
+}
+
 /// Finds the cells of all requested features in one pass over the mesh.
 class Owners {
  public:
@@ -121,7 +127,7 @@ void ContactList::add(std::size_t step, const std::optional<ListedContact>& firs
                       std::span<const FeatureContact> contacts, const Exactly& exactly,
                       const std::function<bool()>& stopped) {
   std::vector<FeatureContact> others(contacts.begin(), contacts.end());
-  if (first) std::erase(others, first->contact);
+  if (first) erase_one(others, first->contact);
   const std::size_t count = others.size() + (first ? 1 : 0);
   if (count == 0 || counts_.size() >= most_) return;  // each step then has its one contact already
   counts_.push_back(count);

@@ -83,6 +83,15 @@ TEST(ContactList, SharesItsRoomAndPutsTheFirstFirst) {
   EXPECT_EQ(asked, 5U);  // three of the first step besides the known one, and two of the other
 }
 
+TEST(ContactList, ListsTheContactsOfEachOfTwoEqualFaces) {
+  ContactList list(10);
+  const std::vector<FeatureContact> contacts = {vertex_face(3), vertex_face(3), vertex_face(4), vertex_face(4)};
+  list.add(1, listed(vertex_face(3)), contacts, listed, [] { return false; });
+  const std::vector<ListedContact> all = list.take();
+  ASSERT_EQ(all.size(), 4U);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].contact, contacts[i]);
+}
+
 TEST(ContactList, OfManyStepsAsksForNoMoreThanAreListed) {
   ContactList list(10);
   std::size_t asked = 0;
