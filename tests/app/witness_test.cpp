@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests contacts at the limits of double: `noli verify` writes a witness for each, which both checkers accept.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
 
 #include "tests/app/process.h"
 #include "tests/app/runs/simulate_fixture.h"
@@ -37,6 +42,10 @@ class ContactWitness : public testing::Test {
       const Process checked = run_noli(check);
       EXPECT_EQ(checked.exit_code, 1) << checker << checked.out << checked.err;
     }
+  }
+
+  Process verify_distance(const std::string& a, const std::string& b, double distance) const {
+    return run_noli({"verify", a, b, "--min-distance", fmt::format("{:.17g}", distance)});
   }
 
   Folder folder;
@@ -102,6 +111,24 @@ TEST_F(ContactWitness, OfAVertexAndAFaceAtTheGreatestDoubles) {
              cells),
        frame("b", "v -1.5e308 -1e308 1e-323\nv 1e308 -1.2e308 3e-310\nv 3e-323 1.6e308 0\nv 7e-323 5e-324 -1.6e308\n",
              cells)});
+}
+
+/// A point flies past a thing at a distance of 1, and is nearer than 1.0001 for a hundredth of the step or less.
+TEST_F(ContactWitness, OfALeastDistanceThatIsBrokenBriefly) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> heights(1, 80);
+  for (int k = 0; k < 12; ++k) {
+    const double from = heights(random), to = -heights(random);
+    for (const char* const thing : {"p 2\n", "l 2 3\n", "f 2 3 4\n"}) {
+      const auto at = [&](const char* name, double height) {
+        const std::string fixed = "v 0 0 0\nv 0 0 1\nv -1 0 0\n";
+        return frame(name, fmt::format("v 1 {:.17g} 0\n{}", height, fixed), std::string("p 1\n") + thing);
+      };
+      const std::string a = at("a", from), b = at("b", to);
+      EXPECT_EQ(verify_distance(a, b, 0.9999).exit_code, 0) << from << " to " << to << " past " << thing;
+      EXPECT_EQ(verify_distance(a, b, 1.0001).exit_code, 1) << from << " to " << to << " past " << thing;
+    }
+  }
 }
 
 /// Differences of coordinates of 1e308 overflow.

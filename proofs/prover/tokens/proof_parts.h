@@ -136,16 +136,18 @@ class ProofParts {
         return;
       }
     }
-    refuse_near(pair, span_, 8);
+    refuse_near(pair, {}, span_, 8);
     halve(a, b, pair, span_);
   }
 
-  /// Throws TooNear if the parts are certainly nearer than the least distance at one of a few times of the piece, whose
-  /// chords they have. (In three dimensions a vertex strays from its chord by less than two radii.)
-  void refuse_near(const Pair& pair, const Piece& piece, int times) const {
+  /// Throws TooNear if the parts are certainly nearer than the least distance at one of a few times of the piece, its
+  /// ends among them. `interval`: where the piece is on the pair's chords. (In three dimensions a vertex strays from its
+  /// chord by less than two radii.)
+  void refuse_near(const Pair& pair, const Interval& interval, const Piece& piece, int times) const {
     for (int k = 0; k <= times; ++k) {
       const double part = static_cast<double>(k) / times;
-      if (distance_at_most(pair.points, part, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) continue;
+      const double at = interval.begin + part * (interval.end - interval.begin);
+      if (distance_at_most(pair.points, at, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) continue;
       throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
     }
   }
@@ -188,13 +190,11 @@ class ProofParts {
       const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
       const Interval interval{begin, begin + width};
       if (const auto n = find(whole, interval)) return write(whole, *n, interval);
-      if (distance_ > 0 && distance_at_most(whole.points, begin, search_rounds) < distance_ * (1 - 0x1p-30)) {
-        throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()), -static_cast<int>(piece.e))};
-      }
+      if (distance_ > 0) refuse_near(whole, interval, piece, 1);
     } else if (!whole.exact) {
       if (const auto pair = pair_in(a, b, piece)) {
         if (const auto n = find(*pair, {})) return write(*pair, *n, {});
-        if (distance_ > 0) refuse_near(*pair, piece, 1);
+        if (distance_ > 0) refuse_near(*pair, {}, piece, 1);
       }
     }
     if (piece.e >= exact_from) {
