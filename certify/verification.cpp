@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/verification.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -77,8 +79,9 @@ void Verification::search_proof(StepProofs& proof, const MotionStep& step, const
     outcome_.complete = proof.prove(step, verifier, options);
     if (outcome_.complete) proof.commit();
   } catch (const TooNear& near) {
-    outcome_.near = ListedNear{outcome_.steps.size(), near};
-    if (proof.refute(step, near)) ++outcome_.witnesses;
+    const bool witnessed = proof.refute(step, near);
+    outcome_.witnesses += witnessed ? 1 : 0;
+    outcome_.near = ListedNear{outcome_.steps.size(), near, witnessed};
     if (outcome_.steps.size() == 1) outcome_.largest_distance = proof.largest(step, verifier, options);
   } catch (const NoProof&) {
     note_no_proof();
@@ -90,10 +93,19 @@ void Verification::note_no_proof() {
   outcome_.complete = !request_.needs_proof();
 }
 
+void Verification::note_distance() {
+  const auto last = outcome_.first_refuted();
+  if (request_.min_distance <= 0 || !last || *last == outcome_.steps.size()) return;
+  outcome_.notes.push_back(
+      fmt::format("{} {} is the last that was looked at for the least distance: something {} in it",
+                  request_.run ? "window" : "step", *last, outcome_.near ? "is too near" : "touches"));
+}
+
 void Verification::set_verdict(bool all) {
   outcome_.complete = outcome_.complete && (all || enough());
   const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-  const Verdict near = outcome_.witnesses > 0 ? Verdict::too_near : Verdict::undecided;
+  const bool witnessed = outcome_.near && outcome_.near->witnessed;
+  const Verdict near = witnessed ? Verdict::too_near : Verdict::undecided;
   outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
 }
 

@@ -32,7 +32,9 @@ class Verification {
 
   bool stopped() { return outcome_.stop_for(request_); }
   /// Whether enough was found to stop.
-  bool enough() const { return outcome_.near.has_value() || (outcome_.touches() && !request_.keep_going); }
+  bool enough() const { return refuted() && !request_.keep_going; }
+  /// Whether a step that was added has a contact or something too near. No proof of the claim is then sought any more.
+  bool refuted() const { return outcome_.touches() || outcome_.near.has_value(); }
 
   /// Adds the findings of the next step. `first`: its first contact. `goes_on`: contacts of the step before go on, and
   /// are not counted again.
@@ -52,6 +54,8 @@ class Verification {
     if (proof.refute(step, first, result)) ++outcome_.witnesses;
   }
   void note_no_proof();
+  /// Says in which steps the least distance was not looked at, if there are any. Call it when all have been added.
+  void note_distance();
 
   void tell(std::string_view work, double share) const {
     if (request_.progress) request_.progress(work, share);

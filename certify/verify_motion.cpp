@@ -256,11 +256,11 @@ class RunVerification : private Verification {
     }
     const MotionStep step{window.index, *window.lines, 0, window.group_hash};
     if (result.touches()) {
-      witness_sought_ = true;
       refute(*proof_, step, result);
-    } else if (!outcome_.touches()) {
+    } else if (!refuted()) {
       search_proof(*proof_, step, *verifier_, options());
     }
+    witness_sought_ = witness_sought_ || refuted();
     outcome_.proof_seconds += watch.seconds();
   }
 
@@ -312,6 +312,7 @@ class RunVerification : private Verification {
     // A run without committed windows proves nothing.
     if (outcome_.steps.empty()) outcome_.complete = false;
     set_verdict(ended_);
+    note_distance();
     list_contacts(reader_.mesh(), log_.names);
   }
 

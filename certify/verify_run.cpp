@@ -146,7 +146,7 @@ class SequenceVerification : private Verification {
   /// To a checker that reads them on their way. It reads those of a step when the proof comes to it.
   void give_frames() {
     TrajectoryPipe* const pipe = request_.trajectory_pipe;
-    const bool wanted = !outcome_.touches() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
+    const bool wanted = !refuted() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
     if (pipe == nullptr || !wanted) return;
     if (given_) pipe->drained();
     if (!given_) given_.emplace(pipe->sink(), sequence_.mesh());
@@ -289,7 +289,7 @@ class SequenceVerification : private Verification {
 
   void verify() {
     const bool by_verifier = request_.open_proof && verifier_proves(request_);
-    const bool wanted = !outcome_.touches() && !outcome_.no_proof;
+    const bool wanted = !refuted() && !outcome_.no_proof;
     if (by_verifier && request_.open_proof_at_once) begin_proof();
     give_frames();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
@@ -324,8 +324,7 @@ class SequenceVerification : private Verification {
     const Stopwatch watch;
     begin_proof();
     if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    witness_sought_ = witness_sought_ || result.touches();
-    if (!result.touches() && outcome_.touches()) return;
+    if (!result.touches() && refuted()) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
@@ -334,6 +333,7 @@ class SequenceVerification : private Verification {
     } else {
       prove_untouched(step, result);
     }
+    witness_sought_ = witness_sought_ || refuted();
     outcome_.proof_seconds += watch.seconds();
   }
 
@@ -360,6 +360,7 @@ class SequenceVerification : private Verification {
     outcome_.bodies = source_->bodies();
     if (verifier_) list_contacts(verifier_->mesh(), names_of_frames(outcome_.bodies));
     put_notes();
+    note_distance();
     if (trajectory_ && !trajectory_->finished()) {
       outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
     }
@@ -414,6 +415,13 @@ void VerifyRequest::put_in_order() {
   frames = std::move(in_order.frames);
   ordered = std::move(in_order.how);
   order_notes = std::move(in_order.notes);
+}
+
+std::optional<std::size_t> VerifyOutcome::first_refuted() const {
+  const auto touching = std::ranges::find_if(steps, [](const StepCounts& step) { return step.touches(); });
+  const auto contact = static_cast<std::size_t>(touching - steps.begin()) + 1;
+  if (near) return std::min(near->step, contact);
+  return touching == steps.end() ? std::nullopt : std::optional(contact);
 }
 
 bool VerifyOutcome::stop_for(const VerifyRequest& request) {

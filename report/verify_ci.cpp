@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <noli/errors.h>
@@ -21,10 +22,12 @@ bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
   return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
 }
 
+bool is_too_near(const VerifyOutcome& outcome, std::size_t k) { return outcome.near && outcome.near->step == k + 1; }
+
 /// What is wrong with a step that was begun; nothing: nothing touches in it.
 std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
   const StepCounts& step = outcome.steps[k];
-  if (outcome.verdict == Verdict::too_near && outcome.near->step == k + 1) {
+  if (is_too_near(outcome, k) && outcome.near->witnessed) {
     return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
                        outcome.near->pair.second_cell, digits17(request.min_distance));
   }
@@ -43,22 +46,31 @@ std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome,
                      who_and_where(*step.first, outcome.dimension));
 }
 
-std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
+/// Why a step in which nothing is wrong does not pass; nothing: it does. `refuted`: outcome.first_refuted().
+std::string why_open(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k,
+                     std::optional<std::size_t> refuted) {
+  if (k >= outcome.steps.size()) {
+    if (outcome.touches()) return "not looked at: verification stopped at an earlier contact (--keep-going)";
+    if (outcome.verdict != Verdict::too_near) return fmt::format("not looked at: {}", why_incomplete(outcome));
+    return "not looked at: verification stopped where something came too near (--keep-going)";
+  }
+  if (!is_decided(outcome, k) || is_too_near(outcome, k)) return fmt::format("undecided: {}", why_incomplete(outcome));
+  const bool distance_open = request.min_distance > 0 && refuted && *refuted <= k;
+  return distance_open ? "nothing touches; not looked at for the least distance, which an earlier step breaks" : "";
+}
+
+std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k,
+                    std::optional<std::size_t> refuted) {
   const std::string head = fmt::format("    <testcase classname=\"noli.verify\" name=\"{}\"",
                                        escaped_markup(step_name(request, outcome, k + 1)));
   const std::string fault = k < outcome.steps.size() ? fault_of(request, outcome, k) : "";
   if (!fault.empty()) {
-    return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head,
-                       name(outcome.verdict), escaped_markup(fault));
+    const Verdict verdict = outcome.steps[k].touches() ? Verdict::contact : Verdict::too_near;
+    return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head, name(verdict),
+                       escaped_markup(fault));
   }
-  if (is_decided(outcome, k)) return head + "/>\n";
-  std::string why = "not looked at: verification stopped at an earlier contact (--keep-going)";
-  if (k < outcome.steps.size()) why = fmt::format("undecided: {}", why_incomplete(outcome));
-  if (k >= outcome.steps.size() && outcome.verdict == Verdict::too_near) {
-    why = "not looked at: verification stopped where something came too near";
-  } else if (k >= outcome.steps.size() && !outcome.touches()) {
-    why = fmt::format("not looked at: {}", why_incomplete(outcome));
-  }
+  const std::string why = why_open(request, outcome, k, refuted);
+  if (why.empty()) return head + "/>\n";
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
 
@@ -82,8 +94,9 @@ std::string verify_junit(const VerifyRequest& request, const VerifyOutcome& outc
   std::string cases;
   std::size_t failures = 0, skipped = 0;
   const std::size_t count = std::max(outcome.steps_total, outcome.steps.size());
+  const auto refuted = outcome.first_refuted();
   for (std::size_t k = 0; k < count; ++k) {
-    const std::string one = case_of(request, outcome, k);
+    const std::string one = case_of(request, outcome, k, refuted);
     failures += one.find("<failure ") != std::string::npos ? 1 : 0;
     skipped += one.find("<skipped ") != std::string::npos ? 1 : 0;
     cases += one;

@@ -113,6 +113,7 @@ struct ListedInitial {
 struct ListedNear {
   std::size_t step = 0;  ///< from 1
   TooNear pair;
+  bool witnessed = false;  ///< a witness in the proof shows it exactly
 };
 
 /// What was found in one step.
@@ -190,6 +191,9 @@ struct VerifyOutcome {
   std::string frame_name(std::size_t k) const;
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
+  /// The first step, from 1, in which something touches or is found too near. No later step is looked at for the least
+  /// distance.
+  std::optional<std::size_t> first_refuted() const;
   /// Whether to stop, because of a request or the time limit; notes which.
   bool stop_for(const VerifyRequest& request);
 };

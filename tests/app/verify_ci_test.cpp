@@ -70,6 +70,14 @@ TEST_F(ForIntegration, JunitTellsWhatIsTooNear) {
       << xml;
 }
 
+TEST_F(ForIntegration, JunitPassesNoStepWhoseDistanceWasNotLookedAt) {
+  const std::string xml = junit({2, 1, 0.5, 1, -1}, {"--min-distance", "0.75", "--keep-going"});
+  EXPECT_NE(xml.find("tests=\"4\" failures=\"2\" errors=\"0\" skipped=\"1\""), std::string::npos) << xml;
+  EXPECT_EQ(count(xml, "<failure type=\"too_near\""), 1U);
+  EXPECT_EQ(count(xml, "<failure type=\"contact\""), 1U);
+  EXPECT_NE(xml.find("<skipped message=\"nothing touches; not looked at for the least distance"), std::string::npos);
+}
+
 TEST_F(ForIntegration, AnnotationsNameEachStepAndEndWithTheVerdict) {
   const Process contact = run_noli(verify({1, 0.5, -1}, {"--github"}));
   EXPECT_TRUE(contact.out.starts_with("::error title=noli%3A step 2 (b <&>.ply → c <&>.ply)::3 pairs of features meet"))

@@ -118,6 +118,27 @@ TEST_F(Verify, KeepsGoingWhenAsked) {
   EXPECT_EQ(json["first"]["step"], 2);
 }
 
+TEST_F(Verify, KeepsGoingBehindWhatIsTooNear) {
+  const auto given = with(frames({2, 1, 0.5, 0.5, -0.5, 1}), {"--keep-going", "--min-distance", "0.75"});
+  const Json json = json_of(given, 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_EQ(json["steps"], 5);
+  EXPECT_EQ(json["first"]["step"], 4);
+  EXPECT_EQ(json["contacts"], vertex_face_contacts(6));
+  EXPECT_EQ(json["near"]["step"], 2);
+  EXPECT_NE(json["notes"].dump().find("step 2 is the last that was looked at for the least distance: something is too "
+                                      "near in it"),
+            std::string::npos)
+      << json["notes"];
+  const Json apart = json_of(with(frames({2, 1, 0.5, 1, 2}), {"--keep-going", "--min-distance", "0.75"}), 1);
+  EXPECT_EQ(apart["verdict"], "too_near");
+  EXPECT_EQ(apart["steps"], 4);
+  EXPECT_EQ(apart["near"]["step"], 2);
+  const Json contact = json_of(with(frames({2, -1, 0.5, 0.5}), {"--keep-going", "--min-distance", "0.75"}), 1);
+  EXPECT_TRUE(contact["near"].is_null());
+  EXPECT_NE(contact["notes"].dump().find("step 1 is the last"), std::string::npos);
+}
+
 TEST_F(Verify, CountsAContactAtABorderOnce) {
   const Json json = json_of(with(frames({1, 0, -1}), {"--keep-going"}), 1);
   EXPECT_EQ(json["steps"], 2);
