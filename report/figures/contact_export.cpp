@@ -51,6 +51,7 @@ class ContactOf {
  public:
   explicit ContactOf(const ContactExportRequest& request)
       : path_(request.result), result_(read_result(request.result)) {
+    if (result_.is_object() && result_.contains("meshes")) result_ = of_first_mesh_that_touches();
     if (!is_of_verify(result_)) refuse("is no result of noli verify; expected what noli verify --json wrote");
     try {
       contact_ = parsed(chosen(request.number));
@@ -82,6 +83,15 @@ class ContactOf {
   bool merged() const { return result_.at("statement").at("merged_vertices").get<std::uint64_t>() > 0; }
 
  private:
+  /// Of `noli verify --static` about files with different meshes.
+  Json of_first_mesh_that_touches() const {
+    static const Json::json_pointer verdict("/result/verdict");
+    for (const Json& mesh : result_["meshes"]) {
+      if (mesh.is_object() && mesh.value(verdict, Json()) == "contact") return mesh["result"];
+    }
+    refuse("is about meshes in which nothing touches");
+  }
+
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
 
   /// The contact that is asked for; null: the first cells that intersect.

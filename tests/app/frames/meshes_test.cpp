@@ -62,6 +62,20 @@ TEST_F(Meshes, TheResultHasThatOfEach) {
   }
 }
 
+TEST_F(Meshes, TheFirstThatTouchesIsExported) {
+  const std::string result = folder.path("result.json"), alone = folder.path("alone.vtu"),
+                    among = folder.path("among.vtu");
+  ASSERT_EQ(verify({crossing()}, {"--json", result}).exit_code, 1);
+  ASSERT_EQ(run_noli({"export", result, "-o", alone}).exit_code, 0);
+  ASSERT_EQ(verify({triangle(), crossing(), apart()}, {"--json", result, "--force"}).exit_code, 1);
+  ASSERT_EQ(run_noli({"export", result, "-o", among}).exit_code, 0);
+  EXPECT_EQ(read_text(among), read_text(alone));
+  ASSERT_EQ(verify({triangle(), apart()}, {"--json", result, "--force"}).exit_code, 0);
+  const Process none = run_noli({"export", result, "-o", alone, "--force"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("is about meshes in which nothing touches"), std::string::npos) << none.err;
+}
+
 TEST_F(Meshes, WhatIsAboutOneMeshIsRefused) {
   for (const Words& option : std::vector<Words>{{"--proof", folder.path("p.noli")},
                                                 {"--claim-out", folder.path("c.json")},
