@@ -156,7 +156,11 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
   answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
   answer.text += report::notes_text(notes);
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
-  const std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
+  std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
+  constexpr std::string_view untouched = "nothing touches";
+  if (const auto claim = claim_of_words(verdict.words); claim && verdict.code == 0 && what.starts_with(untouched)) {
+    what.insert(untouched.size(), distance_phrase(claim->distance, claim->ring));
+  }
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
   answer.next = next_step(verdict, checker.name == "noli_check");
   return answer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Certifies each step inside a solver's loop, and rejects the first step in which something touches.
+// Certifies each step inside a solver's loop, and stops at the first step in which something touches.
 #include <cstdio>
 #include <vector>
 

@@ -111,7 +111,7 @@ class Run {
     if (log_.last_end == "too_near") {
       return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
     }
-    if (log_.last_end == "unstable") return "The energy goes astray" + named + ". Steps are too long, or kick in time.";
+    if (log_.last_end == "unstable") return "The energy drifts" + named + ". Steps are too long, or kick in time.";
     if (log_.last_end != "not_finite") return "";
     return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
   }

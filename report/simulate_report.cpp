@@ -93,14 +93,14 @@ std::string too_near_text(const SimulateOutcome& outcome) {
 std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
-      "{} But the energy goes astray: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
+      "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
       "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
       nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there, digits17(energy.time),
       energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
 
 std::string going_on_text(const SimulateOutcome& outcome) {
-  return outcome.begun ? "; `--resume` goes on behind the last window." : " before the run began; nothing was written.";
+  return outcome.begun ? "; `--resume` continues after the last window." : " before the run began; nothing was written.";
 }
 
 std::string out_of_memory_text(const SimulateOutcome& outcome) {
@@ -176,7 +176,7 @@ std::string place(const SimulateOutcome& outcome) {
       return fmt::format("{}  t = {} s  {}", at, digits4(outcome.limit->time), outcome.first_names);
     case RunEnd::not_finite:
       return fmt::format("{}  t = {} s  vertex {}", at, digits4(outcome.not_finite->time), outcome.not_finite->vertex);
-    case RunEnd::unstable: return committed + ": nothing touches, but the energy goes astray";
+    case RunEnd::unstable: return committed + ": nothing touches, but the energy drifts";
     case RunEnd::interrupted: return committed + " (interrupted)";
     case RunEnd::out_of_time: return committed + " (time limit)";
     case RunEnd::out_of_memory: return committed + " (out of memory)";

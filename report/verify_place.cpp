@@ -50,11 +50,7 @@ class Place {
 
   std::string untouched() const {
     std::string text = nothing_touches_in_short(outcome_.not_compared);
-    if (request_.min_distance > 0) {
-      const std::string which =
-          request_.ring > 1 ? fmt::format("what is {} mesh edges or more away", request_.ring) : "all";
-      text += fmt::format(", and {} is more than {} apart", which, digits17(request_.min_distance));
-    }
+    text += distance_phrase(request_.min_distance, request_.ring);
     Claim others = outcome_.claim;
     if (outcome_.not_compared.any()) others.excluded.clear();  // named above
     for (const std::string& phrase : weakenings(others)) text += "; " + phrase;

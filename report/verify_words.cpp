@@ -35,7 +35,7 @@ std::string why_ended(const RunEnding& ending) {
   if (*ending.why == "done") return "no more was asked for";
   if (*ending.why == "too_near") return "too near";
   if (*ending.why == "not_finite") return "numbers ran out";
-  if (*ending.why == "unstable") return "no more was asked for; its energy goes astray";
+  if (*ending.why == "unstable") return "no more was asked for; its energy drifts";
   if (*ending.why == "time_limit") return "time limit";
   return on_one_line(*ending.why);
 }

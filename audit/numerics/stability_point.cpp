@@ -225,8 +225,8 @@ class Asking {
     if (begin > 0) point_.energy_error = worst / begin;
     const bool stays = begin > 0 && *point_.energy_error <= most_energy_error;
     const std::string words =
-        begin > 0 ? fmt::format("it was {:.3g} J, and goes astray by {:.2g} of that", begin, *point_.energy_error)
-                  : fmt::format("it was {:.3g} J, and goes astray by {:.2g} J", begin, worst);
+        begin > 0 ? fmt::format("it was {:.3g} J, and drifts by {:.2g} of that", begin, *point_.energy_error)
+                  : fmt::format("it was {:.3g} J, and drifts by {:.2g} J", begin, worst);
     if (said) return gives("energy", words);
     if (!stays) broken("energy", words);
   }

@@ -68,6 +68,9 @@ std::optional<std::string> difference(const Claim& asked, const Claim& checked, 
 /// What makes a claim weaker than a checker's default: "frames at rest", "12 merged vertices", ...
 std::vector<std::string> weakenings(const Claim& claim);
 
+/// What a claim says of its least distance: ", and all is more than 0.1 apart"; empty if it has none.
+std::string distance_phrase(double distance, std::uint32_t ring);
+
 /// The fields for --require that a file CLAIM.json asks for (`noli verify --claim-out`); absent members are not asked
 /// for. Throws InputError.
 std::vector<std::string> read_claim_file(const std::filesystem::path& file);

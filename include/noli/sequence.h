@@ -87,8 +87,9 @@ class SequenceVerifier {
   /// std::bad_alloc.
   std::optional<StepResult> add(std::span<const Position> x);
 
-  /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before. Precondition and errors as
-  /// for add(), which is not called then. `prove`: also fill `proof`.
+  /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before, or its x_t0 when that step
+  /// touches and is tried again. Precondition and errors as for add(), which is not called then. `prove`: also fill
+  /// `proof`.
   StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
 
   /// With `only_new`: the pairs of cells that intersect at the positions x of the first frame, in ascending order. All

@@ -193,7 +193,7 @@ TEST_F(Report, SaysWhoCameTooNear) {
 TEST_F(Report, SaysHowFarEnergyWentAstray) {
   const std::vector<std::string> both = run_with_contact();
   change_end(both[0], {{"end", "unstable"}, {"energy", {{"begin", 0.5}, {"there", 3}, {"time", 0.25}}}});
-  EXPECT_TRUE(says(page({both[0]}), "The energy goes astray: from 0.5 J to 3 J at 0.25 s."));
+  EXPECT_TRUE(says(page({both[0]}), "The energy drifts: from 0.5 J to 3 J at 0.25 s."));
 }
 
 TEST_F(Report, SaysWhatIsNotCompared) {

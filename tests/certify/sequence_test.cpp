@@ -53,6 +53,18 @@ TEST(Sequence, WhatMetAtTheEndOfAStepIsNotCountedAgain) {
   EXPECT_TRUE(leaves->reports.empty());
 }
 
+TEST(Sequence, AStepThatTouchesCanBeTriedAgain) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  EXPECT_FALSE(verifier.step(point_at(1), point_at(0.5)).touches());
+  EXPECT_TRUE(verifier.step(point_at(0.5), point_at(-0.5)).touches());
+  EXPECT_TRUE(verifier.step(point_at(0.5), point_at(0)).touches());
+  const StepResult shorter = verifier.step(point_at(0.5), point_at(0.25));
+  EXPECT_TRUE(shorter.complete);
+  EXPECT_FALSE(shorter.touches());
+  EXPECT_FALSE(shorter.goes_on);
+  EXPECT_EQ(verifier.step(point_at(0.25), point_at(-0.25)).contact_count(), 1U);
+}
+
 TEST(Sequence, WhatMeetsInTheFirstFrame) {
   SequenceVerifier verifier(triangle_and_point(), {});
   verifier.add(point_at(0));

@@ -20,7 +20,7 @@ const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";  // lines 1 to 
 
 TEST(Obj, EverythingThatIsAllowed) {
   const Frame frame = parse_obj(
-      "# a comment\r\nmtllib a.mtl\r\no thing\r\nv 1 2 3\r\nv 1 2\r\nv 1 2 3 0.5\r\nv 1 2 3 .1 .2 .3\r\nv +1e-3 -0 3 1 "
+      "# a comment\r\nmtllib a.mtl\r\no thing\r\nv 1 2 3\r\nv 1 2 0\r\nv 1 2 3 0.5\r\nv 1 2 3 .1 .2 .3\r\nv +1e-3 -0 3 1 "
       ".1 .2 .3\r\n"
       "vt 0 0\r\nvn 0 0 1\r\ng group\r\nusemtl m\r\ns off\r\n"
       "f 1 2 3 4 5\r\nf 1/1 2/1 3/7\r\nf 1//1 2//1 5//1\r\nf 1/1/1 2/1/1 -1/-1/-1 # the last\r\n"
@@ -32,6 +32,10 @@ TEST(Obj, EverythingThatIsAllowed) {
   EXPECT_EQ(frame.mesh.faces, (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 1, 2}, {0, 1, 4}, {0, 1, 4}, {0, 1, 2}}));
   EXPECT_EQ(frame.mesh.edges, (Edges{{5, 6}, {6, 7}}));
   EXPECT_EQ(frame.mesh.points, (std::vector<VertexId>{8, 9}));
+}
+
+TEST(Obj, InThePlaneVerticesHaveTwoCoordinates) {
+  EXPECT_EQ(bits(parse_obj("v 1 2\nv 3 4\nl 1 2\n", "plane.obj").positions), bits({{1, 2, 0}, {3, 4, 0}}));
 }
 
 TEST(Obj, NegativeIndicesCountBackFromWhereTheyStand) {
@@ -65,6 +69,8 @@ const BadObj bad_objs[] = {
      "line 1: a vertex has 2, 3 or 4 coordinates, and a colour of 3 numbers or none; found 5 numbers"},
     {"eight_numbers", "v 1 2 3 4 5 6 7 8\n",
      "line 1: a vertex has 2, 3 or 4 coordinates, and a colour of 3 numbers or none; found 8 numbers"},
+    {"z_is_missing", four + "v 1 2\n", "line 5: a vertex with 2 coordinates; the vertices before it have 3 or more"},
+    {"z_in_a_plane", "v 1 2\nv 1 2 3\n", "line 2: a vertex with 3 or more coordinates; the vertices before it have 2"},
     {"no_number", "v 1 2 three\n", "line 1: expected a number, found 'three'"},
     {"nan", four + "v 1 nan 2\n", "line 5: expected a finite number, found 'nan'"},
     {"infinity", "v inf 1 2\n", "line 1: expected a finite number, found 'inf'"},

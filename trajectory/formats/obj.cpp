@@ -76,6 +76,12 @@ class ObjParser {
       fail(fmt::format("a vertex has 2, 3 or 4 coordinates, and a colour of 3 numbers or none; found {} numbers",
                        numbers));
     }
+    const bool in_plane = numbers == 2;
+    if (frame_.positions.empty()) in_plane_ = in_plane;
+    if (in_plane != in_plane_) {
+      fail(fmt::format("a vertex with {} coordinates; the vertices before it have {}", in_plane ? "2" : "3 or more",
+                       in_plane ? "3 or more" : "2"));
+    }
     if (frame_.positions.size() == std::numeric_limits<VertexId>::max()) fail("more than 2^32 - 1 vertices");
     Position position{};
     for (std::size_t i = 0; i < numbers; ++i) {
@@ -158,6 +164,7 @@ class ObjParser {
   std::vector<VertexId> corners_;        ///< of the statement, counted from 0
   std::int64_t largest_index_ = 0;       ///< of all, counted from 1
   std::size_t largest_index_line_ = 0;
+  bool in_plane_ = false;  ///< vertices have two coordinates
   Frame frame_;
 };
 

@@ -131,7 +131,7 @@ TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   run_noli({"simulate", file, "-o", run_path("parts"), "--until", "54"});
   const Process resumed = run_noli({"simulate", file, "-o", run_path("parts"), "--resume"});
   EXPECT_EQ(resumed.exit_code, 1);
-  EXPECT_NE(resumed.out.find("But the energy goes astray: from 1e-12 J to "), std::string::npos) << resumed.out;
+  EXPECT_NE(resumed.out.find("But the energy drifts: from 1e-12 J to "), std::string::npos) << resumed.out;
   EXPECT_EQ(json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 1)["energy"]["astray"], astray);
 }
 
