@@ -94,13 +94,15 @@ std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
       "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
-      "nothing, and is not that of the scene: its steps are too long, or kick in time (`noli explain`).",
+      "nothing, and is not that of the scene: its steps are too long, also for damping, or kick in time (`noli "
+      "explain`).",
       nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there, digits17(energy.time),
       energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
 
 std::string going_on_text(const SimulateOutcome& outcome) {
-  return outcome.begun ? "; `--resume` continues after the last window." : " before the run began; nothing was written.";
+  return outcome.begun ? "; `--resume` continues after the last window."
+                       : " before the run began; nothing was written.";
 }
 
 std::string out_of_memory_text(const SimulateOutcome& outcome) {

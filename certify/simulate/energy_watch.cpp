@@ -25,11 +25,19 @@ void EnergyWatch::add(const SeriesRow& row) {
   if (!begin_) begin_ = row.energy_before();
   const double damping = row.damping_in_all(), held = row.held_in_all();
   integration_ += row.integration;
+  double created = 0;
+  for (std::size_t k = 0; k < force_kinds; ++k) {
+    if (k == static_cast<std::size_t>(ForceKind::contact)) continue;  // friction may drive what lies on a belt
+    damping_[k] += row.damping_work[k];
+    least_damping_[k] = std::min(least_damping_[k], damping_[k]);
+    created += damping_[k] - least_damping_[k];
+  }
   dissipated_ += damping + row.restitution_work;
   restitution_ += row.restitution_work;
   moved_ += std::abs(damping) + std::abs(held) + std::abs(row.restitution_work);
   greatest_ = std::max(greatest_, without_gravity(row));
-  either_way_.add(std::abs(integration_), integration_, row.time);
+  const double made = integration_ + created;
+  either_way_.add(std::abs(made), made, row.time);
   up_.add(integration_ + dissipated_, integration_ + dissipated_, row.time);
 }
 

@@ -6,7 +6,8 @@
 // Notation
 //   K, V      kinetic energy and the sum of all potentials at a window's end
 //   B         K + V less what damping, friction and scripts gave since the beginning. Stable steps change it by a few
-//             hundredths
+//             hundredths. Damping only takes energy: what that of a kind of force gives since its work was least stays in
+//             B, as the steps are then too long for it (integrator/stable_step.h)
 //   scale     the sum of three: the greatest K + V seen, without the potential of gravity, whose zero is arbitrary (at
 //             least K at the beginning); everything given, in magnitude; the energy that rounding may create
 //
@@ -21,6 +22,7 @@
 // damping, friction and restitution take more.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <noli/run.h>
@@ -57,7 +59,8 @@ class EnergyWatch {
   double greatest_;
   std::optional<double> begin_;  ///< K + V
   double integration_ = 0;
-  double dissipated_ = 0;  ///< work of damping, friction and restitution
+  std::array<double, force_kinds> damping_{}, least_damping_{};  ///< work of damping so far, and its least
+  double dissipated_ = 0;                                        ///< work of damping, friction and restitution
   double restitution_ = 0;
   double moved_ = 0;          ///< everything given, in magnitude
   Farthest either_way_, up_;  ///< of the two forms of B

@@ -92,6 +92,13 @@ bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKin
                   name(kind), limit));
 }
 
+/// The same for damping.
+[[noreturn]] void refuse_damping(const Scene& scene, std::size_t body, ForceKind kind, double damping) {
+  field_of_body(scene, body)["material"].fail(
+      fmt::format("expected steps that can be counted over the duration; those of a {} with a damping of {} s cannot",
+                  name(kind), damping));
+}
+
 /// Leaves out forces that move nothing, and gives the others their steps.
 template <class F, int Dim>
 ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std::vector<Vec<double, Dim>>& x,
@@ -116,7 +123,14 @@ ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std
     if (!(limits[i] * 0x1p50 > scene.duration)) refuse_stiffness(scene, origins[i].body, F::kind, limits[i]);
     const Given given = given_step(scene.bodies[origins[i].body], origins[i].centre, which);
     if (given.step > limits[i] && !scene.allow_unstable) refuse_step(scene, origins[i].body, given, F::kind, limits[i]);
-    list.steps.push_back(given.step.value_or(std::min(scene.step_factor * limits[i], scene.window)));
+    const double damping = list.forces[i].damping;
+    BuiltBody& body = built[origins[i].body];
+    const double step = given.step ? *given.step : std::min(scene.step_factor * limits[i], scene.window);
+    const double excess = std::max(1.0, damping_number(damping, step, limits[i]) / most_damping_number);
+    double& greatest = given.step ? body.damping_excess : body.damped_steps;
+    greatest = std::max(greatest, excess);
+    list.steps.push_back(given.step ? step : step / excess);
+    if (!(list.steps.back() * 0x1p50 > scene.duration)) refuse_damping(scene, origins[i].body, F::kind, damping);
   }
   return list;
 }

@@ -36,6 +36,8 @@ struct BuiltBody {
   double mass = 0;                                 ///< [kg]
   std::size_t pinned = 0, scripted = 0;            ///< vertices
   std::size_t idle_forces = 0;                     ///< left out, because they would move nothing
+  double damped_steps = 1;                         ///< how many times shorter damping makes some chosen steps
+  double damping_excess = 1;                       ///< how many times too long for damping some given steps are
   std::size_t open_edges = 0;                      ///< edges with one face, which do not bend
   std::size_t crowded = 0;  ///< edges with more than two faces, or two with the same vertices, and vertices with more
                             ///< than two loose edges; they do not bend

@@ -140,8 +140,19 @@ void warn(const Scene& scene, std::size_t most, Explanation& e) {
   if (scene.contact && e.contact.empty()) {
     e.warnings.emplace_back("there are no layers of contact: nothing can move, or all that can is excluded");
   }
+  for (const BuiltBody& body : e.bodies) {
+    if (body.damped_steps > 1) {
+      e.warnings.push_back(fmt::format("damping makes some steps of {} {:.2g} times shorter than stiffness alone would",
+                                       body.name, body.damped_steps));
+    }
+    if (body.damping_excess > 1) {
+      e.warnings.push_back(
+          fmt::format("some given steps of {} are {:.2g} times too long for its damping, which may create energy then",
+                      body.name, body.damping_excess));
+    }
+  }
   const bool clips = std::ranges::any_of(e.groups, [&](const auto& g) { return g.longest >= scene.window; });
-  if (clips) e.warnings.emplace_back("some steps are as long as the window and could be longer with a longer one");
+  if (clips) e.hints.emplace_back("some steps are as long as the window and could be longer with a longer \"window\"");
 }
 
 template <int Dim>

@@ -70,6 +70,7 @@ struct Explanation {
   double bytes_in_all = 0;
   std::vector<ResonanceWarning> resonances;
   std::vector<std::string> warnings;  ///< other than of resonance
+  std::vector<std::string> hints;     ///< what would make the run faster
 };
 
 /// Throws InputError as build_model does.

@@ -145,6 +145,7 @@ std::string to_text(const Explanation& e) {
   for (const ResonanceWarning& w : e.resonances) out.line("Resonance: {}.", resonance_text(w));
   if (e.resonances.empty()) out.line("Resonance: none found.");
   for (const std::string& warning : e.warnings) out.line("Note: {}.", warning);
+  for (const std::string& hint : e.hints) out.line("Hint: {}.", hint);
   write_defaults(out, e);
   return out.text;
 }
@@ -170,6 +171,7 @@ Json to_json(const Explanation& e) {
   Json& resonances = document["resonances"] = Json::array();
   for (const ResonanceWarning& w : e.resonances) resonances.push_back(resonance_json(w));
   document["warnings"] = e.warnings;
+  document["hints"] = e.hints;
   Json& defaults = document["defaults"] = Json::object();
   for (const DefaultTaken& d : e.defaults) defaults[d.path] = d.value;
   return document;

@@ -71,6 +71,16 @@ TEST(EnergyWatch, WhatWasGivenIsPartOfTheScale) {
   EXPECT_TRUE(watch({pushed(row(1, 1, 0.08), 0.5)}).astray());
 }
 
+TEST(EnergyWatch, DampingMayTakeEnergyAndGiveNone) {
+  EXPECT_FALSE(watch({damped(row(1, 0.5, 0), -0.5)}).astray());
+  const auto found = watch({damped(row(1, 1, 0), -0.5), damped(row(2, 1.4, 0), 0.4)}).astray();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->time, 2);
+  SeriesRow belt = row(1, 1.4, 0);  // moves what lies on it
+  belt.damping_work[static_cast<std::size_t>(ForceKind::contact)] = 0.4;
+  EXPECT_FALSE(watch({belt}).astray());
+}
+
 TEST(EnergyWatch, TheBeginningIsPartOfTheScale) {
   EnergyWatch fast(1), slow(0.5);
   fast.add(row(1, 0.1, 0.04));

@@ -135,6 +135,34 @@ TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   EXPECT_EQ(json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 1)["energy"]["astray"], astray);
 }
 
+/// A sheet that oscillates in its plane.
+Json damped_sheet(double damping) {
+  Json json = Json::parse(R"({"noli_scene": 1, "title": "A sheet", "duration": 0.1, "bodies": [
+    {"name": "sheet", "mesh": {"grid": {"size": [0.5, 0.5], "cells": [12, 12]}}, "perturb": 0.002,
+     "material": {"young": 1e5, "density": 300, "thickness": 0.001}}]})");
+  json["bodies"][0]["material"]["damping"] = damping;
+  return json;
+}
+
+TEST_F(Simulate, StrongDampingTakesEnergyWithTheStepsThatNoliChooses) {
+  const std::string file = scene(damped_sheet(0.1));
+  EXPECT_NE(run_noli({"explain", file}).out.find("damping makes some steps of sheet "), std::string::npos);
+  json_of({"simulate", file, "-o", run_path("run")}, 0);
+  const Json run = json_of({"explain", run_path("run")}, 0);
+  EXPECT_LT(run["energy"]["last"], 0.5 * run["energy"]["begin"].get<double>()) << run["energy"];
+}
+
+TEST_F(Simulate, StepsThatAreTooLongForDampingAreUnstable) {
+  Json json = damped_sheet(0.1);
+  json["bodies"][0]["steps"]["stretch"] = 3.125e-4;
+  const std::string file = scene(json);
+  const Process explained = run_noli({"explain", file});
+  EXPECT_NE(explained.out.find("times too long for its damping"), std::string::npos) << explained.out;
+  const Json result = json_of({"simulate", file, "-o", run_path("run")}, 1);
+  EXPECT_EQ(result["verdict"], "unstable");
+  EXPECT_GT(result["energy"]["astray"]["there"], result["energy"]["astray"]["begin"]);
+}
+
 TEST_F(Simulate, EnergyStaysWhereStepsAreStable) {
   Json json = beam(0.1);
   json["allow_unstable"] = true;
@@ -548,8 +576,7 @@ TEST_F(Simulate, AFolderThatIsNoRunIsCalledThat) {
                                                     {"export", run_path("nosuch"), "-o", run_path("%d.ply")}}) {
     const Process process = run_noli(arguments);
     EXPECT_EQ(process.exit_code, 3) << arguments[0];
-    EXPECT_NE(process.err.find(": is no run; expected a folder with a trajectory.blocks in it"), std::string::npos)
-        << process.err;
+    EXPECT_NE(process.err.find(": is not a run: it has no trajectory.blocks"), std::string::npos) << process.err;
   }
 }
 
