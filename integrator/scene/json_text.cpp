@@ -2,8 +2,10 @@
 #include "integrator/scene/json_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include <noli/errors.h>
@@ -131,8 +133,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& words) {
-  return *std::ranges::min_element(words, {}, [word](const std::string& w) { return edit_distance(word, w); });
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& words) {
+  const auto edits = [word](const std::string& w) { return edit_distance(word, w); };
+  const auto least = std::ranges::min_element(words, {}, edits);
+  if (least == words.end() || edits(*least) > std::max<std::size_t>(1, word.size() / 3)) return std::nullopt;
+  return *least;
+}
+
+std::string nearest_or_all(std::string_view word, const std::vector<std::string>& words) {
+  constexpr std::size_t most = 20;
+  if (const auto near = nearest(word, words)) return "the nearest is " + Json(*near).dump();
+  const std::size_t listed = std::min(words.size(), most);
+  return fmt::format("expected one of \"{}\"{}",
+                     fmt::join(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(listed), "\", \""),
+                     words.size() > listed ? ", ..." : "");
 }
 
 }  // namespace noli::integrator

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,10 @@ std::string brief(const Json& value);
 /// (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest word; the first one of several. Precondition: at least one word.
-std::string nearest(std::string_view word, const std::vector<std::string>& words);
+/// The nearest word, the first one of several, if so few letters differ that it may be meant.
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& words);
+
+/// "the nearest is X" in quotes; if none is near, "expected one of X, Y, ...".
+std::string nearest_or_all(std::string_view word, const std::vector<std::string>& words);
 
 }  // namespace noli::integrator

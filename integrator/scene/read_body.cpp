@@ -259,8 +259,7 @@ std::size_t find_body(const Field& name, const std::vector<Body>& bodies) {
     if (bodies[i].name == name.text()) return i;
     names.push_back(bodies[i].name);
   }
-  name.fail(fmt::format("no body has the name {}; the nearest is {}", brief(name.json()),
-                        Json(nearest(name.text(), names)).dump()));
+  name.fail(fmt::format("no body has the name {}; {}", brief(name.json()), nearest_or_all(name.text(), names)));
 }
 
 Body read_body(const Field& f, std::size_t index) {

@@ -200,8 +200,31 @@ class Validator {
   }
 
   [[noreturn]] void fail_unknown(const Json& properties, const std::string& name, const Json::json_pointer& at) const {
-    fail(at / name,
-         fmt::format("unknown field; the nearest known one is {}", Json(nearest(name, keys(properties))).dump()));
+    const std::vector<std::string> known = keys(properties);
+    if (const auto near = nearest(name, known)) {
+      fail(at / name, fmt::format("unknown field; the nearest known one is {}", Json(*near).dump()));
+    }
+    if (const std::string owner = owner_of(root_, "the scene", name, 0); !owner.empty()) {
+      fail(at / name, fmt::format("unknown field here; it belongs to {}", owner));
+    }
+    fail(at / name, "unknown field; " + nearest_or_all(name, known));
+  }
+
+  /// Of which object a field with this name is; empty: of none. `owner`: what the schema describes.
+  std::string owner_of(const Json& schema, const std::string& owner, const std::string& name, int depth) const {
+    constexpr int most_levels = 8;  // a schema may refer to itself
+    if (depth > most_levels) return "";
+    const Json here = resolved(schema);
+    if (here.contains("properties") && here["properties"].contains(name)) return owner;
+    std::string found;
+    const auto look = [&](const Json& inner, const std::string& inner_owner) {
+      if (found.empty()) found = owner_of(inner, inner_owner, name, depth + 1);
+    };
+    for (const Json& alternative : here.value("oneOf", Json::array())) look(alternative, owner);
+    const Json properties = here.value("properties", Json::object());  // items() only refers to it
+    for (const auto& [key, property] : properties.items()) look(property, Json(key).dump());
+    if (here.contains("items")) look(here["items"], owner);
+    return found;
   }
 
   /// The meaning of a missing field, for messages: " (of each edge)", " (kg/m^3)".
@@ -224,7 +247,10 @@ class Validator {
       if (found != nullptr) fail(at, fmt::format("expected only one of the fields \"{}\"", fmt::join(signs, "\", \"")));
       found = &candidate;
     }
-    if (found == nullptr) fail(at, fmt::format("expected one of the fields \"{}\"", fmt::join(signs, "\", \"")));
+    if (found == nullptr) {
+      fail(at, fmt::format("expected one of the fields \"{}\", found {}", fmt::join(signs, "\", \""),
+                           brief(Json(keys(value)))));
+    }
     return *found;
   }
 

@@ -148,8 +148,7 @@ struct Part {
     if (const auto set = shape.sets.find(name); set != shape.sets.end()) return set->second;
     std::vector<std::string> names{"all"};
     for (const auto& set : shape.sets) names.push_back(set.first);
-    at.fail(fmt::format("the body has no set of vertices {}; the nearest is {}", Json(name).dump(),
-                        Json(nearest(name, names)).dump()));
+    at.fail(fmt::format("the body has no set of vertices {}; {}", Json(name).dump(), nearest_or_all(name, names)));
   }
 
   std::vector<VertexId> operator()(const Box& box) const {

@@ -83,6 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/gravitiy", "[0,0,1]", "/gravitiy: unknown field; the nearest known one is \"gravity\""},
         Bad{"/bodies/0/material/densty", "1",
             "/bodies/0/material/densty: unknown field; the nearest known one is \"density\""},
+        Bad{"/bodies/0/friction", "0.3", "/bodies/0/friction: unknown field here; it belongs to \"contact\""},
+        Bad{"/bodies/0/damping", "1", "/bodies/0/damping: unknown field here; it belongs to \"material\""},
+        Bad{"/bodies/0/gravity", "[0,0,1]", "/bodies/0/gravity: unknown field here; it belongs to the scene"},
         Bad{"/bodies/0/mesh/gird", "{}", "/bodies/0/mesh/gird: unknown field; the nearest known one is \"grid\""},
         Bad{"/bodies/0/mesh/grid/cell", "1",
             "/bodies/0/mesh/grid/cell: unknown field; the nearest known one is \"cells\""},
@@ -102,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/bodies/0/material/edge_stiffness", "5",
             "/bodies/0/material: expected only one of the fields \"young\", \"edge_stiffness\""},
         Bad{"/bodies/0/material", "{\"density\": 5}",
-            "/bodies/0/material: expected one of the fields \"young\", \"edge_stiffness\""},
+            "/bodies/0/material: expected one of the fields \"young\", \"edge_stiffness\", found [\"density\"]"},
         Bad{"/bodies/0/material", "{\"edge_stiffness\": 5}",
             "/bodies/0/material: expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", "
             "\"mass_per_vertex\""},

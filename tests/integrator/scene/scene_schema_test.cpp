@@ -144,7 +144,8 @@ TEST(Schema, Alternatives) {
   EXPECT_EQ(problem(schema, R"({"b": 1})"), "");
   EXPECT_EQ(problem(schema, R"({"b": "1"})"), "d: /b: expected a number, found \"1\"");
   EXPECT_EQ(problem(schema, R"({"b": 1, "x": 2})"), "d: /x: unknown field; the nearest known one is \"b\"");
-  EXPECT_EQ(problem(schema, R"({"x": 2})"), "d: /: expected one of the fields \"a\", \"b\"");
+  EXPECT_EQ(problem(schema, R"({"b": 1, "other": 2})"), "d: /other: unknown field; expected one of \"b\"");
+  EXPECT_EQ(problem(schema, R"({"x": 2})"), "d: /: expected one of the fields \"a\", \"b\", found [\"x\"]");
   EXPECT_EQ(problem(schema, R"({"a": 1, "b": 2})"), "d: /: expected only one of the fields \"a\", \"b\"");
   EXPECT_EQ(problem(schema, "5"), "d: /: expected an object, found 5");
 }
