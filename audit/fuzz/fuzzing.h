@@ -110,13 +110,14 @@ class NotSaved {
 /// Results that all fuzzers share.
 struct FuzzTotals {
   std::uint64_t items = 0;
-  bool interrupted = false;  ///< by the stop flag
+  bool interrupted = false;       ///< by the stop flag
+  bool nothing_answered = false;  ///< a library has answered no query of these items
   NotSaved not_saved;
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new
 
-  /// The run was interrupted (even if it has findings), or did nothing.
-  bool undecided() const { return interrupted || (findings_total == 0 && items == 0); }
+  /// The run was interrupted (even if it has findings), or nothing was learnt.
+  bool undecided() const { return interrupted || (findings_total == 0 && (items == 0 || nothing_answered)); }
   /// "undecided", "finding", or `holds`.
   const char* verdict(const char* holds = "no_finding") const {
     return undecided() ? "undecided" : findings_total > 0 ? "finding" : holds;

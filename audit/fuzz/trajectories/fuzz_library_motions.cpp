@@ -86,6 +86,7 @@ class LibraryMotionFuzzing
       take(std::move(block.motions[index]), tally.name, index, &tally);
     }
     report_.not_asked += block.not_asked;
+    report_.nothing_answered = report_.candidates == 0;
   }
 
   void shrink_findings() {

@@ -128,6 +128,12 @@ TEST_F(FuzzLibraryMotions, GoesOnBehindCrashesAndHangs) {
   }
 }
 
+TEST_F(FuzzLibraryMotions, IsUndecidedAboutALibraryThatHasAnsweredNothing) {
+  const Json document = json(faulty("never_answers"), 2, {"--for", "500ms"});
+  EXPECT_EQ(document["verdict"], "undecided");
+  EXPECT_EQ(document["candidates"], 0);
+}
+
 TEST_F(FuzzLibraryMotions, MakesACrashAndAHangSmallSlow) {
   for (const char* const library : {"crashes", "hangs"}) {
     const Json document = json(faulty(library), 1, {"--count", "14", "--query-limit", "100ms", "--max-findings", "1"});
@@ -178,8 +184,8 @@ TEST_F(FuzzLibraryMotions, JudgesASavedMotionAndMakesItSmaller) {
   const Process replayed = run_noli(words + Words{"--replay", falling});
   EXPECT_EQ(replayed.exit_code, 1) << replayed.err;
   EXPECT_NE(
-      replayed.out.find("late: step 1: vertex 3 and face 0-1-2: 1, exact first time 0.5 (crossing); who trusts it goes "
-                        "through\n"),
+      replayed.out.find("late: step 1: vertex 3 and face 0-1-2: 1, exact first time 0.5 (crossing); a simulation that "
+                        "trusts it goes through the contact\n"),
       std::string::npos)
       << replayed.out;
   const Json smaller = json_of(words + Words{"--minimise", falling, "--out", folder.path("out")}, 1);
@@ -200,9 +206,10 @@ TEST_F(FuzzLibraryMotions, SaysWhereItCrashed) {
   };
   EXPECT_EQ(words("crashes_when_searching"),
             "crash: step 1: signal 11 (Segmentation fault), in the search for candidates");
-  EXPECT_EQ(words("fails"),
-            "failure: step 1: vertex 3 and face 0-1-2: exact first time 0.5 (crossing); who trusts it goes "
-            "through");
+  EXPECT_EQ(
+      words("fails"),
+      "failure: step 1: vertex 3 and face 0-1-2: exact first time 0.5 (crossing); a simulation that trusts it goes "
+      "through the contact");
 }
 
 TEST_F(FuzzLibraryMotions, DoesNotSayWhereWhenNobodyKnows) {

@@ -19,6 +19,7 @@ enum behaviour {
   ends_the_program, /* the same */
   hangs,            /* the same */
   sleeps,           /* the same */
+  never_answers,
   takes_memory,     /* the same */
   leaks,
   lies_about_time,
@@ -78,6 +79,7 @@ static void write_all_over(int byte) {
 }
 
 static void at_some_queries(double first) {
+  while (IS(never_answers)) pause();
   if (!(first > 0)) return;
   if (IS(writes_zeros_and_crashes)) write_all_over(0);
   if (IS(crashes) || IS(writes_zeros_and_crashes)) crash();
