@@ -139,7 +139,7 @@ std::string next_step(const CheckerVerdict& verdict, bool plain) {
   const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
   switch (verdict.code) {
     case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
-    case 1: return "noli verify with the same frames or run tells all contacts and where they are.";
+    case 1: return "noli verify with the same frames or run lists all contacts.";
     default:
       return names_remedy
                  ? ""
@@ -202,7 +202,7 @@ ExitCode run(CheckArguments& arguments) {
   const std::vector<fs::path>& trajectory = ordered.frames;
   if (!fs::exists(proof)) {
     const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
-    throw InputError(proof.string(), "", std::string("is not there; expected a proof") + why);
+    throw InputError(proof.string(), "", std::string("does not exist; expected a proof") + why);
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
   std::vector<fs::path> inputs = files_named(arguments.files);

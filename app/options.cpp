@@ -99,7 +99,7 @@ std::chrono::nanoseconds parse_duration(const std::string& text, const std::stri
   const double seconds = number * unit.value_or(0);
   if (error != std::errc() || !(seconds > 0 && seconds <= ten_years)) {
     throw UsageError(option + ": '" + text +
-                     "' is no duration; expected a positive number with ms, s, m or h, as in 60s");
+                     "' is not a duration; expected a positive number with ms, s, m or h, as in 60s");
   }
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
 }

@@ -84,7 +84,7 @@ void require_new(const OutputFile& output, bool force) {
   std::error_code error;
   const bool there = fs::exists(fs::symlink_status(output.path, error));
   if (!there || force || !is_regular_or_nothing(output.path)) return;
-  refuse(output, "is there already; expected no such file, or --force");
+  refuse(output, "exists already; choose another name, or pass --force");
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class Report {
     for (const fs::path& path : inputs_.results) {
       Json result = report::read_result(path);
       if (report::is_of_verify(result)) {
-        if (verified_) throw UsageError(path.string() + ": expected one result of noli verify at most");
+        if (verified_) throw UsageError(path.string() + ": expected at most one result of noli verify");
         verified_ = VerifyResult{path, std::move(result)};
         continue;
       }
@@ -308,7 +308,7 @@ Command add_report(CLI::App& app) {
       ->required()
       ->type_name("RUN | RESULT.json");
   command->add_option("-o,--output", arguments->output, "The page")->required()->type_name("OUT.html");
-  command->add_option("--title", arguments->title, "What stands at its head")->type_name("TEXT");
+  command->add_option("--title", arguments->title, "Its heading")->type_name("TEXT");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);
   command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")

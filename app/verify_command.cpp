@@ -183,7 +183,7 @@ void name_frames(VerifyArguments& arguments) {
   arguments.given = files_named(request.frames);
   if (request.frames.empty() && !arguments.bodies.any()) {
     throw UsageError(
-        "`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` says more");
+        "`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` lists them");
   }
   if (!arguments.bodies.any()) {
     request.frames = named_frames(std::move(request.frames));

@@ -82,7 +82,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
-std::string more_help(const CLI::App& app) { return fmt::format("`{} --help` says more", full_name(app)); }
+std::string more_help(const CLI::App& app) { return fmt::format("`{} --help` lists them", full_name(app)); }
 
 /// Not a negative number.
 bool is_option(const std::string& argument) {
@@ -162,7 +162,7 @@ struct Wording {
 constexpr std::array<Wording, 8> wordings = {{
     {{"Could not convert: ", " = "}, "{0}: {1} is no number;"},
     {{"", ": Value ", " not in range ", " to "}, "{0}: {1} is wrong; expected a number from {2} to {3};"},
-    {{"", " excludes "}, "{0} and {1} exclude each other; leave one of them out;"},
+    {{"", " excludes "}, "{0} and {1} cannot be combined; drop one of them;"},
     {{"", " requires "}, "{0} needs {1};"},
     {{"", ": 1 required ", " missing"}, "{0} needs a value, {1};"},
     {{"", ": ", " required ", " missing"}, "{0} needs {1} values, {2};"},

@@ -107,7 +107,7 @@ class Export {
       if (!series) earlier_.push_back(path);
       if (request_.force) continue;
       throw UsageError("-o " + request_.pattern + ": " + path.string() +
-                       " is there already; expected no such file, or --force");
+                       " exists already; choose another name, or pass --force");
     }
   }
 

@@ -383,9 +383,9 @@ class SequenceVerification : private Verification {
     const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
     if (contact || near) {
       outcome_.notes.emplace_back(
-          contact
-              ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
-              : "what is too near is so between two frames: straight lines are assumed there; finer frames tell more");
+          contact ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
+                  : "the least distance is broken between two frames: straight lines are assumed there; finer frames "
+                    "tell more");
     }
   }
 

@@ -204,9 +204,9 @@ std::string energy_text(const RunExplanation& e) {
   if (!e.energy) return "";
   const EnergySummary& energy = *e.energy;
   return fmt::format(
-             "Energy: {:.9g} J at the beginning, {:.9g} J after the last window (after others from {:.9g} to {:.9g}).\n"
-             "Work: damping and friction {:.3g} J, restitution {:.3g} J, scripts {:.3g} J; what is left, "
-             "{:.3g} J, finite steps did.\n",
+             "Energy: {:.9g} J at the beginning, {:.9g} J after the last window (in between from {:.9g} to {:.9g}).\n"
+             "Work: damping and friction {:.3g} J, restitution {:.3g} J, scripts {:.3g} J; the "
+             "rest, {:.3g} J, is the error of finite steps.\n",
              energy.begin, energy.last, energy.least, energy.greatest, energy.damping_work, energy.restitution_work,
              energy.held_work, energy.integration) +
          kinds_of_work_text(energy) + work_of_materials_text(e) + work_of_scripts_text(energy.scripts);

@@ -29,7 +29,7 @@ std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome,
   const StepCounts& step = outcome.steps[k];
   if (is_too_near(outcome, k) && outcome.near->witnessed) {
     return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
-                       outcome.near->pair.second_cell, digits17(request.min_distance));
+                       outcome.near->pair.second_cell, request.min_distance);
   }
   if (!step.touches()) return "";
   const bool whole = is_decided(outcome, k) && !request.first_only;

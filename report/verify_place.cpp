@@ -83,9 +83,9 @@ class Place {
   std::string near() const {
     const TooNear& pair = outcome_.near->pair;
     const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
-    return fmt::format("{}  t = {} of it  cell {} × cell {}  not more than {} apart{}",
+    return fmt::format("{}  for example at t = {}: cell {} × cell {}, not more than {} apart{}",
                        step_name(request_, outcome_, outcome_.near->step), digits4(pair.time), pair.first_cell,
-                       pair.second_cell, digits17(request_.min_distance), ring);
+                       pair.second_cell, request_.min_distance, ring);
   }
 
   const VerifyRequest& request_;

@@ -213,7 +213,7 @@ Command add_audit_stability(CLI::App& audit) {
   command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")
       ->check(CLI::ExistingFile)
       ->type_name("NOLI");
-  command->add_option("--out", arguments->out, "Folder for the input of findings, made when there is one")
+  command->add_option("--out", arguments->out, "Folder for the input of findings, made for the first one")
       ->capture_default_str()
       ->type_name("DIR");
   command->add_option("--svg", arguments->svg, "Draw what holds up to which value")->type_name("OUT.svg");

@@ -19,7 +19,7 @@ void add_library_options(CLI::App& command, LibraryArguments& arguments, const s
   CLI::Option* const path =
       command.add_option("--library", library.path, "Ask this library of collision detection, in place of " + instead)
           ->type_name("LIB.so");
-  command.add_option("--tolerance", library.tolerance, "What the library is told, a length")
+  command.add_option("--tolerance", library.tolerance, "The tolerance that the library is given, a length")
       ->check(is_not_negative())
       ->capture_default_str()
       ->type_name("T")

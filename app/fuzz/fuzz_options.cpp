@@ -28,7 +28,7 @@ void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const
       .add_option("--corpus", arguments.corpus,
                   "Folder of " + what + " that reached something new: judged first, added to")
       ->type_name("DIR");
-  command.add_option("--out", arguments.out, "Folder for findings, made when there is one")
+  command.add_option("--out", arguments.out, "Folder for findings, made for the first one")
       ->capture_default_str()
       ->type_name("DIR");
   add_output_options(command, arguments.results);

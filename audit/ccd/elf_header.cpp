@@ -46,12 +46,12 @@ void swap_if_foreign(Head& head, const Head& own) {
 void require_shared_library(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& problem) { throw InputError(file.string(), "", problem); };
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) refuse("is not there; expected a shared library");
+  if (!std::filesystem::exists(file, error)) refuse("does not exist; expected a shared library");
   if (!std::filesystem::is_regular_file(file, error)) refuse("is no file; expected a shared library");
   if (!std::ifstream(file, std::ios::binary)) refuse("cannot be read");
   std::optional<Head> head = head_of(file);
   const std::optional<Head> own = head_of("/proc/self/exe");
-  if (!head) refuse("is no shared library (it does not begin as an ELF file does)");
+  if (!head) refuse("is not a shared library (it does not begin as an ELF file does)");
   if (!own) return;
   swap_if_foreign(*head, *own);
   if (described(*head) != described(*own)) {

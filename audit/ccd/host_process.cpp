@@ -163,7 +163,7 @@ void require_loaded(const std::optional<fs::path>& library, const HostStatus& st
   };
   if (ending.kind == Ending::Kind::stopped) return;
   if (ending.kind != Ending::Kind::finished) {
-    if (status.phase.load() == HostPhase::loading) refuse("cannot be loaded: " + ending.words + " meanwhile");
+    if (status.phase.load() == HostPhase::loading) refuse("cannot be loaded: " + ending.words + " while loading");
     return;
   }
   const auto lacks = [&](const char* function) {

@@ -287,7 +287,7 @@ std::vector<std::string> weakenings(const Claim& claim) {
 std::string distance_phrase(double distance, std::uint32_t ring) {
   if (distance <= 0) return "";
   const std::string which = ring > 1 ? fmt::format("what is {} mesh edges or more away", ring) : "all";
-  return fmt::format(", and {} is more than {} apart", which, digits17(distance));
+  return fmt::format(", and {} is more than {} apart", which, distance);
 }
 
 Json claim_json(const Claim& claim) {

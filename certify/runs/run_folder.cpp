@@ -96,9 +96,10 @@ void RunFolder::make(bool force) {
   lock();
   const bool empty = fs::is_directory(path_, error) && fs::is_empty(path_, error);
   if (!empty && !force) {
-    throw UsageError("-o " + path_.string() + ": is there already; expected a new folder, --resume or --force");
+    throw UsageError("-o " + path_.string() + ": exists already; expected a new folder, --resume or --force");
   }
-  if (!is_run(path_)) throw UsageError("-o " + path_.string() + ": is no run; expected a folder that may be replaced");
+  if (!is_run(path_))
+    throw UsageError("-o " + path_.string() + ": is not a run; expected a folder that may be replaced");
   require_writable_folder(path_.string(), "-o");
   clear(path_);
 }
@@ -116,7 +117,8 @@ void RunFolder::log_begin(const Json& facts) {
 }
 
 bool RunFolder::has_begun() const {
-  if (!is_run(path_)) throw UsageError("--resume: " + path_.string() + " is no run; expected the folder of one");
+  if (!is_run(path_))
+    throw UsageError("--resume: " + path_.string() + " is not the folder of a run; begin without --resume");
   require_writable_folder(path_.string(), "--resume");
   require_no_links(path_);
   const fs::path trajectory = trajectory_path(path_);

@@ -94,7 +94,7 @@ class ContactOf {
 
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
 
-  /// The contact that is asked for; null: the first cells that intersect.
+  /// The contact that is asked for; null: the first cells that intersect, or come too near.
   const Json& chosen(std::size_t number) const {
     const Json& listed = result_.at("reports").at("contacts");
     if (number > listed.size()) {
@@ -102,14 +102,15 @@ class ContactOf {
     }
     if (number > 0) return listed.at(number - 1);
     const Json& intersections = result_.at("initial_reports").at("intersections");
-    if (result_.at("first").is_null() && intersections.empty()) {
-      refuse("lists no contact; expected a result with the verdict contact");
+    if (result_.at("first").is_null() && intersections.empty() && result_.at("near").is_null()) {
+      refuse("lists no contact; expected a result with the verdict contact or too_near");
     }
     return result_.at("first");
   }
 
   Contact parsed(const Json& json) {
-    if (json.is_null()) return intersection(result_.at("initial_reports").at("intersections").at(0));
+    const Json& intersections = result_.at("initial_reports").at("intersections");
+    if (json.is_null()) return intersections.empty() ? near() : intersection(intersections.at(0));
     if (!json.contains("point")) refuse("was written by an older noli, which lists no points; verify again");
     Contact contact{json.at("step").get<std::size_t>(), json.at("time").get<double>(), std::nullopt, {}};
     contact.point = json.at("point").get<Position>();
@@ -120,6 +121,14 @@ class ContactOf {
   Contact intersection(const Json& json) {
     intersecting_ = json.at("cells").get<std::array<std::uint32_t, 2>>();
     return {json.at("step").get<std::size_t>(), 0, std::nullopt, {}};
+  }
+
+  Contact near() {
+    const Json& json = result_.at("near");
+    Contact contact = intersection(json);
+    contact.time = json.at("part_of_step").get<double>();
+    if (verified_steps(result_, path_).run) refuse("does not say at which time of the run something is too near");
+    return contact;
   }
 
   std::filesystem::path file(std::size_t k) const {

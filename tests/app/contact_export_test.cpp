@@ -98,6 +98,14 @@ TEST_F(ContactExport, ShowsCellsThatIntersectWhereNoPairOfFeaturesMeets) {
   EXPECT_EQ(marked(process), 2U);
 }
 
+TEST_F(ContactExport, ShowsCellsThatComeTooNear) {
+  run_noli({"verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(0.5)), "--json",
+            folder.path("result.json"), "--min-distance", "0.75"});
+  const Process process = export_to("near.vtu");
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(marked(process), 2U);
+}
+
 /// Particles are cells too.
 TEST_F(ContactExport, MarksParticles) {
   const auto frame = [&](const std::string& name, const std::string& z) {

@@ -300,7 +300,7 @@ TEST_F(Figures, BadInputIsRefused) {
   refused(run_path("run"), "energy", run_path("a.svg"), {"--fps", "30"}, "--f");
   EXPECT_FALSE(fs::exists(run_path("a.svg")));
   const std::string there = figure("energy", "there.svg");
-  refused(run_path("run"), "energy", there, {}, "is there already");
+  refused(run_path("run"), "energy", there, {}, "exists already");
   EXPECT_EQ(run_noli({"export", run_path("run"), "--figure", "energy", "-o", there, "--force"}).exit_code, 0);
 }
 

@@ -244,7 +244,7 @@ TEST_F(Limits, ALimitHasToBeADuration) {
     arguments.insert(arguments.end(), {"--time-limit", "soon"});
     const Process process = run_noli(arguments);
     EXPECT_EQ(process.exit_code, 3) << command[0];
-    EXPECT_NE(process.err.find("--time-limit: 'soon' is no duration"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("--time-limit: 'soon' is not a duration"), std::string::npos) << process.err;
   }
 }
 

@@ -58,7 +58,7 @@ TEST_F(OutputFiles, WhatExistsStaysUnlessForced) {
   for (const auto& words : all) {
     SCOPED_TRACE(words[0] + " " + words[words.size() - 2]);
     if (words[0] == "report" && !reports_are_there()) continue;
-    expect_refused(words, mine + ": is there already; expected no such file, or --force");
+    expect_refused(words, mine + ": exists already; choose another name, or pass --force");
     EXPECT_EQ(bytes_of(mine), "mine");
     EXPECT_EQ(run_noli(forced(words)).exit_code, 0);
     EXPECT_NE(bytes_of(mine), "mine");
@@ -149,7 +149,7 @@ TEST_F(OutputFiles, NoneIsReadByAScene) {
 
 TEST_F(OutputFiles, ALinkToNothingExists) {
   fs::create_symlink("nowhere", run_path("link"));
-  expect_refused(verify({"--json", run_path("link")}), "is there already");
+  expect_refused(verify({"--json", run_path("link")}), "exists already");
   EXPECT_FALSE(fs::exists(run_path("nowhere")));
 }
 

@@ -209,7 +209,7 @@ TEST_F(ExportPicture, BadInputIsNamed) {
     EXPECT_EQ(result.exit_code, 3) << what;
     EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
   };
-  expect_refused({"--at", "3", "-o", run_path("p.png")}, "goes up to 0.25 s");
+  expect_refused({"--at", "3", "-o", run_path("p.png")}, "ends at 0.25 s");
   expect_refused({"--at", "-1", "-o", run_path("p.png")}, "expected a time of it");
   expect_refused({"--at", "0.1", "-o", run_path("p.jpg")}, ".png");
   expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");

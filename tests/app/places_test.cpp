@@ -24,7 +24,7 @@ TEST_F(Places, ExportLeavesNoFilesOfALongerOne) {
   EXPECT_TRUE(fs::exists(run_path("frames/a008.ply")));
   const Process refused = run_noli(arguments("8", "ply"));
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("is there already; expected no such file, or --force"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("exists already; choose another name, or pass --force"), std::string::npos) << refused.err;
   EXPECT_TRUE(fs::exists(run_path("frames/a008.ply")));
   auto forced = arguments("8", "ply");
   forced.emplace_back("--force");

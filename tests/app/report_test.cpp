@@ -498,7 +498,7 @@ TEST_F(Report, ReplacesNothingUnasked) {
   const std::string there = folder.write("there.html", "mine");
   const Process process = run_noli({"report", result, "-o", there});
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("is there already"), std::string::npos);
+  EXPECT_NE(process.err.find("exists already"), std::string::npos);
   EXPECT_EQ(bytes_of(there), "mine");
   EXPECT_EQ(run_noli({"report", result, "-o", result, "--force"}).exit_code, 3);
 }

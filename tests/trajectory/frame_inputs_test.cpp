@@ -120,7 +120,7 @@ TEST(FrameInputs, PolygonsEarnANote) {
               Taken({flat, other});
             }),
             other.string() + ": face 0 has vertices [1, 2, 3], but " + flat.string() +
-                " has [0, 1, 2] there; all frames must have the same mesh (frame 2 of 2)");
+                " has [0, 1, 2] there; all frames must have the same mesh; use --body for several (frame 2 of 2)");
   FrameInputs one({flat, bent});
   one.look_at(0);
   one.look_at(1);
@@ -138,12 +138,15 @@ struct OtherFrame {
 const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const OtherFrame other_frames[] = {
     {"vertices", "b.obj", v3 + "v 1 1 1\nf 1 2 3\n",
-     "has 4 vertices, but NAME has 3; all frames must have the same mesh"},
-    {"faces", "b.obj", triangle_obj + "f 1 3 2\n", "has 2 faces, but NAME has 1; all frames must have the same mesh"},
+     "has 4 vertices, but NAME has 3; all frames must have the same mesh; use --body for several"},
+    {"faces", "b.obj", triangle_obj + "f 1 3 2\n",
+     "has 2 faces, but NAME has 1; all frames must have the same mesh; use --body for several"},
     {"corners", "b.obj", v3 + "f 2 3 1\n",
-     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh"},
+     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh (several bodies: "
+     "--body)"},
     {"relative", "b.obj", v3 + "f -1 -2 -3\n",
-     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh"},
+     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh (several bodies: "
+     "--body)"},
     {"extension", "b.stl", "solid\n",
      "expected a file that ends in .ply, .obj, .vtu or .vtp, found '.stl'; " + conversion_advice("b.stl")},
     {"packed", "b.obj.gz", "\x1f\x8b",

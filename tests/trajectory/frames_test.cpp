@@ -116,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(All, DifferentMeshes, ::testing::ValuesIn(other_meshes)
 TEST_P(DifferentMeshes, AreNamedWithTheFirstDifference) {
   const TemporaryFolder folder;
   const auto a = folder.write("a.obj", cells_obj), b = folder.write("b.obj", GetParam().text);
-  std::string expected = b.string() + ": " + GetParam().difference + "; all frames must have the same mesh";
+  std::string expected =
+      b.string() + ": " + GetParam().difference + "; all frames must have the same mesh; use --body for several";
   expected.replace(expected.find("NAME"), 4, a.string());
   FrameInputs frames({a, a, b});
   FrameSequence sequence(frames);

@@ -40,7 +40,7 @@ std::filesystem::path require_trajectory(const std::filesystem::path& folder) {
   std::filesystem::path path = trajectory_path(folder);
   std::error_code error;
   if (std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) return path;
-  throw InputError(folder.string(), "", "is no run; expected a folder with a trajectory.blocks in it");
+  throw InputError(folder.string(), "", "is not a run: it has no trajectory.blocks");
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ void JoinedFrames::require_counts(const std::vector<BodyFrames>& bodies) {
     const auto count = parts_[i].source->count();
     if (!count) throw UsageError("-: cannot be one of several bodies; expected files");
     if (bodies[i].still && *count != 1) {
-      throw InputError(bodies[i].name, "", fmt::format("has {} frames; expected one of an obstacle", *count));
+      throw InputError(bodies[i].name, "", fmt::format("has {} frames; expected one frame for an obstacle", *count));
     }
     if (i == 0) count_ = *count;
     if (!bodies[i].still && *count != count_) {
-      throw InputError(
-          bodies[i].name, "",
-          fmt::format("has {} frames, but {} has {}; expected as many of each body", *count, bodies[0].name, count_));
+      throw InputError(bodies[i].name, "",
+                       fmt::format("has {} frames, but {} has {}; expected the same number for each body", *count,
+                                   bodies[0].name, count_));
     }
   }
 }

@@ -194,9 +194,10 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
 std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
   std::string text;
   for (const auto& finding : report.findings) {
-    text += fmt::format("{}\n  {}\n  {}, block {}, query {}; {} such; shrunk to {} different numbers; {}\n",
+    const std::size_t distinct = distinct_coordinates(finding.shrunk);
+    text += fmt::format("{}\n  {}\n  {}, block {}, query {}; {} such; shrunk to {} different number{}; {}\n",
                         finding.found.words, c_array(finding.shrunk), finding.generator, finding.block, finding.index,
-                        finding.alike, distinct_coordinates(finding.shrunk), whereabouts(options, finding.file));
+                        finding.alike, distinct, distinct == 1 ? "" : "s", whereabouts(options, finding.file));
   }
   if (options.corpus) text += corpus_text(report.corpus);
   return text + "Generators (what each attacks):\n" + generators_text(options, report);

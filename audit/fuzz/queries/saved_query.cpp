@@ -64,7 +64,8 @@ void save_query(const std::filesystem::path& file, const AnyQuery& query, bool c
 std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw InputError(file.string(), "", "is not there");
   const auto kind = kind_from_file_name(file);
-  if (!kind) throw InputError(file.string(), "", "its name tells no kind of query, such as edge-edge");
+  if (!kind)
+    throw InputError(file.string(), "", "its name must contain the kind of query: vertex-face, edge-edge, ...");
   const std::string text = read_whole_file(file);
   const auto saved = first_parsed(text, parse_probe_line);
   const auto type = saved_type(text);

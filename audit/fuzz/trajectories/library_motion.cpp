@@ -89,7 +89,7 @@ class StepJudge {
 
  private:
   MotionFaultFound found(MotionFault fault, const std::string& what) const {
-    const char* const through = audit_.through ? "; who trusts it goes through" : "";
+    const char* const through = audit_.through ? "; a simulation that trusts it goes through the contact" : "";
     return {fault, ContactKind::apart, step_, audit_.through,
             fmt::format("{}: step {}: {}{}", name(fault), step_ + 1, what, through)};
   }

@@ -223,8 +223,8 @@ TEST_F(AuditCcd, RefusesWhatIsNoSuchLibrary) {
   refused(faulty("crashes_when_loaded"), "cannot be loaded: ");
   refused(folder.path("absent.so"), "is not there");
   refused(folder.path("."), "is no file");
-  refused(folder.write("text.so", "int noli_ccd_query();\n"), "is no shared library");
-  refused(folder.write("empty.so", ""), "is no shared library");
+  refused(folder.write("text.so", "int noli_ccd_query();\n"), "is not a shared library");
+  refused(folder.write("empty.so", ""), "is not a shared library");
   refused(NOLI_COMMAND, "cannot be loaded: ");
 }
 

@@ -129,7 +129,8 @@ TEST_F(Bodies, AreRefusedWhenTheyDoNotGoTogether) {
                  "has 3 frames, but shirt has 4");
   expect_refused({"verify", "--body", shirt, "--body", shirt}, "two bodies shirt");
   expect_refused({"verify", "--body", "shirt"}, "expected a name and its files");
-  expect_refused({"verify", "--body", shirt, "--obstacle", folder.path("man_*.ply")}, "expected one of an obstacle");
+  expect_refused({"verify", "--body", shirt, "--obstacle", folder.path("man_*.ply")},
+                 "expected one frame for an obstacle");
   expect_refused({"verify", "--obstacle", folder.path("floor.ply")}, "--body");
   expect_refused({"verify", "--body", shirt, folder.path("floor.ply")}, "--body");
   expect_refused({"verify"}, "needs FRAMES, bodies (--body) or the folder of a run");

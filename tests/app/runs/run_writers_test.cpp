@@ -43,8 +43,8 @@ class Writers : public Simulate {
       EXPECT_EQ(process->exit_code, 3) << process->err;
       const bool told = process->err.find(" is being written by ") != std::string::npos ||
                         process->err.find(": is being written by ") != std::string::npos;
-      const bool too_early = process->err.find("is no run") != std::string::npos;        // not created yet
-      const bool too_late = process->err.find("is there already") != std::string::npos;  // created by the second
+      const bool too_early = process->err.find("is not the folder of a run") != std::string::npos;  // not created yet
+      const bool too_late = process->err.find("exists already") != std::string::npos;  // created by the second
       EXPECT_TRUE(told || (process == &two && too_early) || (process == &one && too_late)) << process->err;
       (told ? told_ : not_told_)++;
     }
@@ -211,7 +211,7 @@ TEST_F(Writers, FilesOfOthersAreLetBe) {
   for (const char* const how : {"--resume", "--force"}) {
     const Process process = simulate(run_path("none"), {how});
     EXPECT_EQ(process.exit_code, 3);
-    EXPECT_NE(process.err.find("is no run"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("is not "), std::string::npos) << process.err;
   }
   EXPECT_EQ(fs::exists(run_path("none/0.ply")), true);
 }
