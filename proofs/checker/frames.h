@@ -65,6 +65,7 @@ inline Frame read_obj(Reader text) {
   static constexpr std::string_view skipped =
       "  vt vn vp g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj ";
   Frame frame;
+  bool flat = false;  // vertices have no z
   while (auto line = text.line()) {
     std::string statement(*line);
     while (line && statement.ends_with('\\') && line->find('#') == std::string_view::npos) {
@@ -84,6 +85,8 @@ inline Frame read_obj(Reader text) {
         if (i <= 3) x[i - 1] = value;
       }
       text.require(words.size() >= 3 && words.size() != 6 && words.size() <= 8, "expected 2, 3, 4, 6 or 7 numbers");
+      if (frame.x.empty()) flat = words.size() == 3;
+      text.require((words.size() == 3) == flat, "some vertices have 2 coordinates, and others have 3");
       text.require(frame.x.size() < 0xffffffff, "too many vertices");
       frame.x.push_back(x);
       continue;

@@ -287,7 +287,7 @@ TEST(Frames, OfABlockFile) {
 }
 
 TEST(Frames, Obj) {
-  const std::string vertices = "v 0 0\nv 1 0 0\r\nv +2 0 0 1\nv 3 1e-3 0 1 1 1\nv 4 0 0 1 1 1 1\n";
+  const std::string vertices = "v 0 0 0\nv 1 0 0\r\nv +2 0 0 1\nv 3 1e-3 0 1 1 1\nv 4 0 0 1 1 1 1\n";
   const Frame frame =
       read("a.OBJ", vertices +
                         "# nothing\n\ng 5 6\nusemtl a#b \\\nf 1/1/1 2//2 3 -1\nl 1 2 4 \\\n 5 # and so on \\\n"
@@ -308,6 +308,9 @@ TEST(Frames, Obj) {
   for (const char* words : {"f 1 2", "l 1", "p"}) EXPECT_WRONG("a.obj", vertices + words, "too few");
   EXPECT_WRONG("a.obj", vertices + "f 1 2 6", "is not there");
   EXPECT_WRONG("a.obj", "vertex 1 2 3", "expected a statement");
+  EXPECT_EQ(read("a.obj", "v 1 2\nv 3 4\nl 1 2\n").x[1], (Position{3, 4, 0}));
+  EXPECT_WRONG("a.obj", vertices + "v 1 2", "line 6: some vertices have 2 coordinates, and others have 3");
+  EXPECT_WRONG("a.obj", "v 1 2\nv 1 2 3", "line 2: some vertices have 2 coordinates");
 }
 
 std::string ply(const std::string& format, const std::string& elements, const std::string& body) {

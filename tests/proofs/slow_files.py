@@ -306,6 +306,8 @@ def read_obj(data):
         if kind == b"v":
             need(len(words) in (2, 3, 4, 6, 7), "a vertex")
             numbers = [decimal(word) for word in words]
+            flat = len(words) == 2 if not positions else flat
+            need((len(words) == 2) == flat, "a vertex without z among others")
             positions.append(tuple((numbers + [0.0])[:3]))
             continue
         need(kind in (b"f", b"l", b"p"), "an unknown statement")

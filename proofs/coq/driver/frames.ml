@@ -88,7 +88,7 @@ let skipped = ["vt"; "vn"; "vp"; "g"; "o"; "s"; "mg"; "usemtl"; "mtllib"; "usema
                "c_interp"; "d_interp"; "shadow_obj"; "trace_obj"]
 
 let read_obj c =
-  let places = ref [] and known = ref 0 and cells = ref [] in
+  let places = ref [] and known = ref 0 and cells = ref [] and flat = ref false in
   let cell corners = cells := polygon !cells corners in
   (* A line that ends with a backslash goes on in the next. *)
   let rec statement earlier =
@@ -100,6 +100,8 @@ let read_obj c =
   let vertex numbers =
     let n = List.length numbers in
     check c (n >= 2 && n <> 5 && n <= 7 && !known < mask) "one vertex too many, or not 2, 3, 4, 6, 7 numbers";
+    if !known = 0 then flat := n = 2;
+    check c ((n = 2) = !flat) "some vertices have 2 coordinates, and others have 3";
     places := Array.sub (Array.of_list (List.map (decimal c false) numbers @ [0.0])) 0 3 :: !places;
     incr known in
   (* v, v/vt, v//vn, v/vt/vn: what follows the first slash is not used. *)
