@@ -33,7 +33,10 @@ ExitCode run(const std::optional<std::string>& name) {
     write_standard_output(names());
     return ExitCode::holds;
   }
-  const auto found = std::ranges::find(schema_texts(), std::string_view(*name), &SchemaText::name);
+  constexpr std::string_view prefix = "noli-";  // as results name their schema
+  std::string_view wanted = *name;
+  if (wanted.starts_with(prefix)) wanted.remove_prefix(prefix.size());
+  const auto found = std::ranges::find(schema_texts(), wanted, &SchemaText::name);
   if (found == schema_texts().end()) {
     throw UsageError(fmt::format("there is no schema {}; `noli schema` lists the names", on_one_line(*name)));
   }

@@ -26,7 +26,7 @@ void add_library_options(CLI::App& command, LibraryArguments& arguments, const s
       ->needs(path);
   command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
       ->needs(path);
-  command.add_flag("--first-only", arguments.first_only, "Stop at the first finding")->needs(path);
+  command.add_flag("--first-only", arguments.first_only, "Stop soon after the first finding")->needs(path);
   add_sandbox_option(command, library.host.sandbox)->needs(path);
   command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
       ->capture_default_str()

@@ -18,6 +18,7 @@
 
 #include <noli/errors.h>
 #include "certify/process/run_program.h"
+#include "trajectory/text.h"
 
 namespace noli::audit {
 namespace {
@@ -163,11 +164,13 @@ void require_loaded(const std::optional<fs::path>& library, const HostStatus& st
   };
   if (ending.kind == Ending::Kind::stopped) return;
   if (ending.kind != Ending::Kind::finished) {
-    if (status.phase.load() == HostPhase::loading) refuse("cannot be loaded: " + ending.words + " while loading");
+    const std::string said = on_one_line(first_line(ending.said));
+    const std::string why = said.empty() ? "" : fmt::format("; its standard error begins with: {}", said);
+    if (status.phase.load() == HostPhase::loading) refuse("cannot be loaded: " + ending.words + " while loading" + why);
     return;
   }
   const auto lacks = [&](const char* function) {
-    refuse(fmt::format("has no function {} (include/noli/ccd_plugin.h)", function));
+    refuse(fmt::format("has no visible function {} (include/noli/ccd_plugin.h; C++ needs extern \"C\")", function));
   };
   switch (status.loaded) {
     case LoadResult::ok: return;
@@ -176,7 +179,8 @@ void require_loaded(const std::optional<fs::path>& library, const HostStatus& st
     case LoadResult::no_query: lacks("noli_ccd_query"); break;
     case LoadResult::no_candidates: lacks("noli_ccd_candidates"); break;
     case LoadResult::other_version:
-      refuse(fmt::format("is for version {} of the interface; expected {}", status.version, NOLI_CCD_VERSION));
+      refuse(fmt::format("is for version {} of the interface; expected {}: compile it with include/noli/ccd_plugin.h",
+                         status.version, NOLI_CCD_VERSION));
   }
 }
 

@@ -43,7 +43,9 @@ TEST_F(Schema, NamesAreListedAndEachIsPrinted) {
   std::set<std::string> seen;
   for (std::string name; names >> name;) {
     seen.insert(name);
-    const Json schema = Json::parse(run_noli({"schema", name}).out);
+    const std::string printed = run_noli({"schema", name}).out;
+    EXPECT_EQ(run_noli({"schema", "noli-" + name}).out, printed);
+    const Json schema = Json::parse(printed);
     const Json version = schema["properties"].contains("version") ? schema["properties"]["version"]["const"] : Json(1);
     EXPECT_EQ(schema["$id"], "urn:noli:schema:" + name + ":" + version.dump());
     EXPECT_EQ(complaint(name, "[]").find("Traceback"), std::string::npos) << name;

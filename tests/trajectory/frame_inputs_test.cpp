@@ -142,11 +142,11 @@ const OtherFrame other_frames[] = {
     {"faces", "b.obj", triangle_obj + "f 1 3 2\n",
      "has 2 faces, but NAME has 1; all frames must have the same mesh; use --body for several"},
     {"corners", "b.obj", v3 + "f 2 3 1\n",
-     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh (several bodies: "
-     "--body)"},
+     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; use --body for "
+     "several"},
     {"relative", "b.obj", v3 + "f -1 -2 -3\n",
-     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh (several bodies: "
-     "--body)"},
+     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; use --body for "
+     "several"},
     {"extension", "b.stl", "solid\n",
      "expected a file that ends in .ply, .obj, .vtu or .vtp, found '.stl'; " + conversion_advice("b.stl")},
     {"packed", "b.obj.gz", "\x1f\x8b",

@@ -167,7 +167,7 @@ TEST_F(AuditFrames, GoesOnWithTheNextLibraryAfterACrash) {
 }
 
 TEST_F(AuditFrames, RefusesWhatItCannotDo) {
-  refused(command(faulty("always_hits")), "has no function noli_ccd_candidates");
+  refused(command(faulty("always_hits")), "has no visible function noli_ccd_candidates");
   refused(command(plugin("noli"), {"--svg", folder.path("a.svg")}), "--svg");
   refused({"audit", "ccd", "a-edge-edge.csv", "--library", plugin("noli"), "--frames", before, after}, "and not both");
   refused({"audit", "ccd", "--library", plugin("noli")}, "expected files of queries, or --frames");

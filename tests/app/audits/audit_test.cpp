@@ -217,11 +217,11 @@ TEST_F(AuditCcd, CountsFailures) {
 }
 
 TEST_F(AuditCcd, RefusesWhatIsNoSuchLibrary) {
-  refused(faulty("has_no_version"), "has no function noli_ccd_version");
-  refused(faulty("has_no_query"), "has no function noli_ccd_query");
+  refused(faulty("has_no_version"), "has no visible function noli_ccd_version");
+  refused(faulty("has_no_query"), "has no visible function noli_ccd_query");
   refused(faulty("has_another_version"), "is for version 2 of the interface; expected 1");
   refused(faulty("crashes_when_loaded"), "cannot be loaded: ");
-  refused(folder.path("absent.so"), "is not there");
+  refused(folder.path("absent.so"), "does not exist");
   refused(folder.path("."), "is no file");
   refused(folder.write("text.so", "int noli_ccd_query();\n"), "is not a shared library");
   refused(folder.write("empty.so", ""), "is not a shared library");

@@ -251,7 +251,7 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
     expect_refused(Words{"fuzz", "trajectories"} + words, because);
   };
   const std::string falling = falling_triangle();
-  refused({"--library", faulty("has_no_query"), "--count", "1"}, "has no function noli_ccd_query");
+  refused({"--library", faulty("has_no_query"), "--count", "1"}, "has no visible function noli_ccd_query");
   refused({"--library", faulty("has_another_version"), "--count", "1"}, "is for version 2");
   refused({"--library", faulty("crashes_when_loaded"), "--count", "1"}, "cannot be loaded");
   refused({"--library", folder.path("absent.so"), "--count", "1"}, "absent.so");

@@ -269,9 +269,9 @@ TEST_F(FuzzLibrary, RefusesWhatCannotBe) {
   };
   const std::string file = folder.write("two-vertex-face.csv", two_queries);
   const std::string text = folder.write("text", "x");
-  refused({"--library", faulty("has_no_query"), "--count", "1"}, "has no function noli_ccd_query");
+  refused({"--library", faulty("has_no_query"), "--count", "1"}, "has no visible function noli_ccd_query");
   refused({"--library", faulty("has_another_version"), "--count", "1"}, "is for version 2");
-  refused({"--library", folder.path("absent.so"), "--count", "1"}, "is not there");
+  refused({"--library", folder.path("absent.so"), "--count", "1"}, "does not exist");
   refused({"--count", "1", "--exact"}, "--library");
   refused({"--count", "1", "--tolerance", "1"}, "--library");
   refused({"--library", mutant("none"), "--count", "1", "--tolerance", "-1"}, "--tolerance");
