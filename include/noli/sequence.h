@@ -88,7 +88,7 @@ class SequenceVerifier {
   std::optional<StepResult> add(std::span<const Position> x);
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before, or its x_t0 when that step
-  /// touches and is tried again. Precondition and errors as for add(), which is not called then. `prove`: also fill
+  /// touches and is tried again. add() then goes on from x_t1. Precondition and errors as for add(). `prove`: also fill
   /// `proof`.
   StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
 
@@ -103,6 +103,14 @@ class SequenceVerifier {
   VerifyOptions step_options() const;
 
  private:
+  /// A step that touches: its frames, and what was known before it. It may be tried again.
+  struct Rejected {
+    std::vector<Position> x_t0, x_t1;
+    std::uint64_t steps;
+    bool meeting_at_end;
+  };
+
+  void take_back(std::span<const Position> x_t0);
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
   bool drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, StepResult& result);
@@ -114,6 +122,7 @@ class SequenceVerifier {
   std::uint64_t steps_ = 0;
   bool meeting_at_end_ = false;  ///< some pair met in the previous step: only then can one meet as the next one begins
   std::optional<std::vector<Position>> last_;  ///< frame of add()
+  std::optional<Rejected> rejected_;           ///< the last step, if it touches
 };
 
 }  // namespace noli

@@ -65,6 +65,28 @@ TEST(Sequence, AStepThatTouchesCanBeTriedAgain) {
   EXPECT_EQ(verifier.step(point_at(0.25), point_at(-0.25)).contact_count(), 1U);
 }
 
+TEST(Sequence, AnotherAttemptSeesAllThatTheFirstOneSaw) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  for (const double z : {-1.0, 1.0, -0.5}) {
+    const StepResult leaves = verifier.step(point_at(0), point_at(z));
+    EXPECT_EQ(leaves.contact_count(), 1U) << z;
+    EXPECT_EQ(leaves.initial_intersections, 1U) << z;
+  }
+  EXPECT_EQ(verifier.step(point_at(-0.5), point_at(-1)).contact_count(), 0U);
+  SequenceVerifier at_rest_first(triangle_and_point(), {});
+  EXPECT_EQ(at_rest_first.step(point_at(0), point_at(0)).contact_count(), 1U);
+  EXPECT_EQ(at_rest_first.step(point_at(0), point_at(0)).contact_count(), 0U) << "the next step, and no attempt";
+}
+
+TEST(Sequence, AFrameAfterAnotherAttemptFollowsIt) {
+  SequenceVerifier verifier(triangle_and_point(), {});
+  verifier.add(point_at(1));
+  EXPECT_TRUE(verifier.add(point_at(-1))->touches());
+  EXPECT_FALSE(verifier.step(point_at(1), point_at(0.5)).touches());
+  EXPECT_FALSE(verifier.add(point_at(0.25))->touches());
+  EXPECT_TRUE(verifier.add(point_at(-0.25))->touches());
+}
+
 TEST(Sequence, WhatMeetsInTheFirstFrame) {
   SequenceVerifier verifier(triangle_and_point(), {});
   verifier.add(point_at(0));
