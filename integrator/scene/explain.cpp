@@ -142,12 +142,12 @@ void warn(const Scene& scene, std::size_t most, Explanation& e) {
   }
   for (const BuiltBody& body : e.bodies) {
     if (body.damped_steps > 1) {
-      e.warnings.push_back(fmt::format("damping makes some steps of {} {:.2g} times shorter than stiffness alone would",
+      e.warnings.push_back(fmt::format("damping makes some steps of {} {:.3g} times shorter than stiffness alone would",
                                        body.name, body.damped_steps));
     }
     if (body.damping_excess > 1) {
       e.warnings.push_back(
-          fmt::format("some given steps of {} are {:.2g} times too long for its damping, which may create energy then",
+          fmt::format("some given steps of {} are {:.3g} times too long for its damping, which may create energy then",
                       body.name, body.damping_excess));
     }
   }

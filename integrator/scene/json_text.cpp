@@ -143,10 +143,11 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
 std::string nearest_or_all(std::string_view word, const std::vector<std::string>& words) {
   constexpr std::size_t most = 20;
   if (const auto near = nearest(word, words)) return "the nearest is " + Json(*near).dump();
-  const std::size_t listed = std::min(words.size(), most);
-  return fmt::format("expected one of \"{}\"{}",
-                     fmt::join(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(listed), "\", \""),
-                     words.size() > listed ? ", ..." : "");
+  std::vector<std::string> quoted;
+  for (const std::string& known : words) quoted.push_back(Json(known).dump());
+  const bool all = quoted.size() <= most;
+  quoted.resize(std::min(quoted.size(), most));
+  return fmt::format("expected one of {}{}", fmt::join(quoted, ", "), all ? "" : ", ...");
 }
 
 }  // namespace noli::integrator

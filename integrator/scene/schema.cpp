@@ -204,9 +204,11 @@ class Validator {
     if (const auto near = nearest(name, known)) {
       fail(at / name, fmt::format("unknown field; the nearest known one is {}", Json(*near).dump()));
     }
-    if (const std::string owner = owner_of(root_, "the scene", name, 0); !owner.empty()) {
-      fail(at / name, fmt::format("unknown field here; it belongs to {}", owner));
+    const std::string owner = owner_of(root_, "the scene", name, 0);
+    if (!at.empty() && owner == Json(at.back()).dump()) {
+      fail(at / name, "cannot be combined with the other fields of " + owner);
     }
+    if (!owner.empty()) fail(at / name, fmt::format("unknown field here; it belongs to {}", owner));
     fail(at / name, "unknown field; " + nearest_or_all(name, known));
   }
 
