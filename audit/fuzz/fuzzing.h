@@ -111,7 +111,7 @@ class NotSaved {
 struct FuzzTotals {
   std::uint64_t items = 0;
   bool interrupted = false;       ///< by the stop flag
-  bool nothing_answered = false;  ///< a library has answered no query of these items
+  bool nothing_answered = false;  ///< a library was stopped, and had answered no query by then
   NotSaved not_saved;
   std::uint64_t findings_total = 0;
   std::size_t corpus_size = 0;  ///< items in the corpus, of before and new

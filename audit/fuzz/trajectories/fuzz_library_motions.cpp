@@ -28,6 +28,7 @@ struct AskedMotion {
 struct AskedBlock {
   std::vector<AskedMotion> motions;
   std::uint64_t not_asked = 0;
+  bool stopped = false;  ///< within a motion, which is not among these
 };
 
 bool is_costly(const LibraryMotionAnswer& answer) {
@@ -65,7 +66,8 @@ class LibraryMotionFuzzing
       const MotionQuestion question{report_.knows_times, block == 0};
       AskedMotion asked{std::move(made.motion), {}};
       asked.answer = ask_motion(asked_, asked.motion, made.planted, question);
-      if (asked.answer.stopped) break;
+      result.stopped = asked.answer.stopped;
+      if (result.stopped) break;
       costly += is_costly(asked.answer) ? 1 : 0;
       result.motions.push_back(std::move(asked));
     }
@@ -86,7 +88,7 @@ class LibraryMotionFuzzing
       take(std::move(block.motions[index]), tally.name, index, &tally);
     }
     report_.not_asked += block.not_asked;
-    report_.nothing_answered = report_.candidates == 0;
+    report_.nothing_answered = report_.candidates == 0 && (report_.nothing_answered || block.stopped);
   }
 
   void shrink_findings() {
