@@ -136,20 +136,15 @@ class ProofParts {
         return;
       }
     }
-    refuse_near(pair, {}, span_, 8);
+    for (int k = 0; k <= 8; ++k) refuse_near(pair, k / 8.0, span_, k / 8.0);
     halve(a, b, pair, span_);
   }
 
-  /// Throws TooNear if the parts are certainly nearer than the least distance at one of a few times of the piece, its
-  /// ends among them. `interval`: where the piece is on the pair's chords. (In three dimensions a vertex strays from its
-  /// chord by less than two radii.)
-  void refuse_near(const Pair& pair, const Interval& interval, const Piece& piece, int times) const {
-    for (int k = 0; k <= times; ++k) {
-      const double part = static_cast<double>(k) / times;
-      const double at = interval.begin + part * (interval.end - interval.begin);
-      if (distance_at_most(pair.points, at, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) continue;
-      throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
-    }
+  /// Throws TooNear if the parts are certainly nearer than the least distance at a time: this part of the piece, which is
+  /// `at` on the pair's chords. (In three dimensions a vertex strays from its chord by less than two radii.)
+  void refuse_near(const Pair& pair, double at, const Piece& piece, double part) const {
+    if (distance_at_most(pair.points, at, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) return;
+    throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
   }
 
   /// The bound that n.(a - b) must exceed: rounding, radii and the least distance.
@@ -190,11 +185,14 @@ class ProofParts {
       const double begin = width * mpz_get_d((piece.k - (span_.k << deeper)).get());
       const Interval interval{begin, begin + width};
       if (const auto n = find(whole, interval)) return write(whole, *n, interval);
-      if (distance_ > 0) refuse_near(whole, interval, piece, 1);
+      const bool is_left_half = mpz_even_p(piece.k.get()) != 0;  // other ends were looked at before
+      if (distance_ > 0 && is_left_half) refuse_near(whole, interval.end, piece, 1);
     } else if (!whole.exact) {
       if (const auto pair = pair_in(a, b, piece)) {
         if (const auto n = find(*pair, {})) return write(*pair, *n, {});
-        if (distance_ > 0) refuse_near(*pair, {}, piece, 1);
+        for (const double part : {0.0, 1.0}) {
+          if (distance_ > 0) refuse_near(*pair, part, piece, part);
+        }
       }
     }
     if (piece.e >= exact_from) {
