@@ -9,7 +9,7 @@ namespace noli {
 namespace {
 
 constexpr std::string_view letters = "noli row";
-constexpr std::uint64_t version = 5;
+constexpr std::uint64_t version = 6;
 constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
@@ -149,10 +149,10 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
 
 std::string not_a_row(std::string_view bytes) {
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is no row of version 5, as a run of an earlier Noli has it; expected a run of this version";
+    return "its series is no row of version 6, as a run of an earlier Noli has it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
-  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 5";
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 6";
 }
 
 WindowState decode_state(std::string_view bytes) {

@@ -36,8 +36,7 @@ void EnergyWatch::add(const SeriesRow& row) {
   restitution_ += row.restitution_work;
   moved_ += std::abs(damping) + std::abs(held) + std::abs(row.restitution_work);
   greatest_ = std::max(greatest_, without_gravity(row));
-  const double made = integration_ + created;
-  either_way_.add(std::abs(made), made, row.time);
+  for (const double made : {integration_, integration_ + created}) either_way_.add(std::abs(made), made, row.time);
   up_.add(integration_ + dissipated_, integration_ + dissipated_, row.time);
 }
 

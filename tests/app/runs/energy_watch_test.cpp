@@ -76,6 +76,7 @@ TEST(EnergyWatch, DampingMayTakeEnergyAndGiveNone) {
   const auto found = watch({damped(row(1, 1, 0), -0.5), damped(row(2, 1.4, 0), 0.4)}).astray();
   ASSERT_TRUE(found);
   EXPECT_EQ(found->time, 2);
+  EXPECT_TRUE(watch({damped(row(1, 1, -0.2), 0.2)}).astray()) << "they do not make up for each other";
   SeriesRow belt = row(1, 1.4, 0);  // moves what lies on it
   belt.damping_work[static_cast<std::size_t>(ForceKind::contact)] = 0.4;
   EXPECT_FALSE(watch({belt}).astray());
