@@ -139,7 +139,7 @@ std::string next_step(const CheckerVerdict& verdict, bool plain) {
   const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
   switch (verdict.code) {
     case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
-    case 1: return "noli verify with the same frames or run lists all contacts.";
+    case 1: return "noli verify with the same frames or run shows where and when.";
     default:
       return names_remedy
                  ? ""
@@ -157,10 +157,10 @@ report::Answer check_answer(const Json& json, const CheckerVersion& checker, con
   answer.text += report::notes_text(notes);
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
   std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
-  constexpr std::string_view untouched = "nothing touches";
-  if (const auto claim = claim_of_words(verdict.words); claim && verdict.code == 0 && what.starts_with(untouched)) {
-    what.insert(untouched.size(), distance_phrase(claim->distance, claim->ring));
-  }
+  constexpr std::string_view touches = "touches";
+  const auto claim = claim_of_words(verdict.words);
+  const std::size_t at = what.find(touches);
+  if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
   answer.next = next_step(verdict, checker.name == "noli_check");
   return answer;

@@ -94,18 +94,21 @@ void Verification::note_no_proof() {
 }
 
 void Verification::note_distance() {
-  const auto last = outcome_.first_refuted();
+  const auto last = outcome_.last_for_distance();
   if (request_.min_distance <= 0 || !last || *last == outcome_.steps.size()) return;
+  const char* const what = outcome_.is_too_near() ? "is too near" : outcome_.near ? "may be too near" : "touches";
   outcome_.notes.push_back(
       fmt::format("{} {} is the last that was looked at for the least distance: something {} in it",
-                  request_.run ? "window" : "step", *last, outcome_.near ? "is too near" : "touches"));
+                  request_.run               ? "window"
+                  : request_.constant_motion ? "frame"
+                                             : "step",
+                  *last, what));
 }
 
 void Verification::set_verdict(bool all) {
   outcome_.complete = outcome_.complete && (all || enough());
   const Verdict untouched = outcome_.complete ? Verdict::no_contact : Verdict::undecided;
-  const bool witnessed = outcome_.near && outcome_.near->witnessed;
-  const Verdict near = witnessed ? Verdict::too_near : Verdict::undecided;
+  const Verdict near = outcome_.is_too_near() ? Verdict::too_near : Verdict::undecided;
   outcome_.verdict = outcome_.touches() ? Verdict::contact : outcome_.near ? near : untouched;
 }
 

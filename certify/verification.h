@@ -32,9 +32,10 @@ class Verification {
 
   bool stopped() { return outcome_.stop_for(request_); }
   /// Whether enough was found to stop.
-  bool enough() const { return refuted() && !request_.keep_going; }
-  /// Whether a step that was added has a contact or something too near. No proof of the claim is then sought any more.
-  bool refuted() const { return outcome_.touches() || outcome_.near.has_value(); }
+  bool enough() const { return doubtful() && !request_.keep_going; }
+  /// Whether in a step that was added something touches, or is or may be too near. No proof of the claim is then sought
+  /// any more.
+  bool doubtful() const { return outcome_.touches() || outcome_.near; }
 
   /// Adds the findings of the next step. `first`: its first contact. `goes_on`: contacts of the step before go on, and
   /// are not counted again.

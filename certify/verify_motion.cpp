@@ -247,7 +247,8 @@ class RunVerification : private Verification {
   }
 
   void prove(RunWindow& window, const WindowResult& result) {
-    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
+    if (outcome_.near || (witness_sought_ && request_.trajectory_pipe != nullptr))
+      return;  // nor does the checker go on
     const Stopwatch watch;
     give_lines(window);
     if (!proof_) {
@@ -257,10 +258,10 @@ class RunVerification : private Verification {
     const MotionStep step{window.index, *window.lines, 0, window.group_hash};
     if (result.touches()) {
       refute(*proof_, step, result);
-    } else if (!refuted()) {
+    } else if (!outcome_.touches()) {
       search_proof(*proof_, step, *verifier_, options());
     }
-    witness_sought_ = witness_sought_ || refuted();
+    witness_sought_ = witness_sought_ || doubtful();
     outcome_.proof_seconds += watch.seconds();
   }
 

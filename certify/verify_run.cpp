@@ -146,7 +146,7 @@ class SequenceVerification : private Verification {
   /// To a checker that reads them on their way. It reads those of a step when the proof comes to it.
   void give_frames() {
     TrajectoryPipe* const pipe = request_.trajectory_pipe;
-    const bool wanted = !refuted() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
+    const bool wanted = !doubtful() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
     if (pipe == nullptr || !wanted) return;
     if (given_) pipe->drained();
     if (!given_) given_.emplace(pipe->sink(), sequence_.mesh());
@@ -289,7 +289,7 @@ class SequenceVerification : private Verification {
 
   void verify() {
     const bool by_verifier = request_.open_proof && verifier_proves(request_);
-    const bool wanted = !refuted() && !outcome_.no_proof;
+    const bool wanted = !doubtful() && !outcome_.no_proof;
     if (by_verifier && request_.open_proof_at_once) begin_proof();
     give_frames();
     const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
@@ -323,8 +323,8 @@ class SequenceVerification : private Verification {
   void prove(const StepResult& result) {
     const Stopwatch watch;
     begin_proof();
-    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    if (!result.touches() && refuted()) return;
+    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;      // the checker reads no further
+    if (outcome_.near || (!result.touches() && outcome_.touches())) return;  // nor does a checker go on
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
@@ -333,7 +333,7 @@ class SequenceVerification : private Verification {
     } else {
       prove_untouched(step, result);
     }
-    witness_sought_ = witness_sought_ || refuted();
+    witness_sought_ = witness_sought_ || doubtful();
     outcome_.proof_seconds += watch.seconds();
   }
 
@@ -365,6 +365,14 @@ class SequenceVerification : private Verification {
       outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
     }
     outcome_.inputs = source_->take_facts();
+    note_numbering();
+  }
+
+  void note_numbering() {
+    if (!outcome_.touches() && !outcome_.is_too_near()) return;
+    const auto is_obj = [](const FrameFacts& facts) { return facts.file.ends_with(".obj"); };
+    if (!std::ranges::any_of(outcome_.inputs, is_obj)) return;
+    outcome_.notes.emplace_back("vertices and cells count from 0 here; in OBJ files they count from 1");
   }
 
   /// Of a source that does not say how many frames it has.
@@ -380,7 +388,7 @@ class SequenceVerification : private Verification {
     for (const std::string& note : source_->notes()) outcome_.notes.push_back(note);
     const bool contact =
         outcome_.initial_reports.empty() && outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
-    const bool near = outcome_.near && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
+    const bool near = outcome_.is_too_near() && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
     if (contact || near) {
       outcome_.notes.emplace_back(
           contact ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
@@ -417,7 +425,7 @@ void VerifyRequest::put_in_order() {
   order_notes = std::move(in_order.notes);
 }
 
-std::optional<std::size_t> VerifyOutcome::first_refuted() const {
+std::optional<std::size_t> VerifyOutcome::last_for_distance() const {
   const auto touching = std::ranges::find_if(steps, [](const StepCounts& step) { return step.touches(); });
   const auto contact = static_cast<std::size_t>(touching - steps.begin()) + 1;
   if (near) return std::min(near->step, contact);

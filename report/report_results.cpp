@@ -317,9 +317,10 @@ class Verified {
   void add_near(std::vector<std::string>& lines) const {
     const Json near = result_.value("near", Json());
     if (near.is_null()) return;
-    lines.push_back(fmt::format("Cells {} and {} are not more than the least distance apart, in step {}.",
+    const bool witnessed = near.value("witnessed", true);
+    lines.push_back(fmt::format("Cells {} and {} {} not more than the least distance apart, in step {}.",
                                 count(near.at("cells").at(0), "a cell"), count(near.at("cells").at(1), "a cell"),
-                                count(near.at("step"), "step")));
+                                witnessed ? "are" : "may be", count(near.at("step"), "step")));
   }
 
   void add_proof(std::vector<std::string>& lines) const {

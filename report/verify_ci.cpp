@@ -22,16 +22,18 @@ bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
   return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
 }
 
-bool is_too_near(const VerifyOutcome& outcome, std::size_t k) { return outcome.near && outcome.near->step == k + 1; }
+bool may_be_too_near(const VerifyOutcome& outcome, std::size_t k) {
+  return outcome.near && outcome.near->step == k + 1;
+}
 
 /// What is wrong with a step that was begun; nothing: nothing touches in it.
 std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
   const StepCounts& step = outcome.steps[k];
-  if (is_too_near(outcome, k) && outcome.near->witnessed) {
+  if (may_be_too_near(outcome, k) && outcome.near->witnessed) {
     return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
                        outcome.near->pair.second_cell, request.min_distance);
   }
-  if (!step.touches()) return "";
+  if (!step.touches()) return step.goes_on ? "features that met in the step before still meet as this one begins" : "";
   const bool whole = is_decided(outcome, k) && !request.first_only;
   std::string text;
   if (step.contact_count() > 0) {
@@ -46,30 +48,37 @@ std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome,
                      who_and_where(*step.first, outcome.dimension));
 }
 
-/// Why a step in which nothing is wrong does not pass; nothing: it does. `refuted`: outcome.first_refuted().
+/// Why a step in which nothing is wrong does not pass; nothing: it does. `last`: outcome.last_for_distance().
 std::string why_open(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k,
-                     std::optional<std::size_t> refuted) {
+                     std::optional<std::size_t> last) {
   if (k >= outcome.steps.size()) {
-    if (outcome.touches()) return "not looked at: verification stopped at an earlier contact (--keep-going)";
-    if (outcome.verdict != Verdict::too_near) return fmt::format("not looked at: {}", why_incomplete(outcome));
-    return "not looked at: verification stopped where something came too near (--keep-going)";
+    const char* const why = request.keep_going  ? nullptr
+                            : outcome.touches() ? "at an earlier contact"
+                            : outcome.near      ? "where something came too near"
+                                                : nullptr;
+    if (why == nullptr) return fmt::format("not looked at: {}", why_incomplete(outcome));
+    return fmt::format("not looked at: verification stopped {} (--keep-going)", why);
   }
-  if (!is_decided(outcome, k) || is_too_near(outcome, k)) return fmt::format("undecided: {}", why_incomplete(outcome));
-  const bool distance_open = request.min_distance > 0 && refuted && *refuted <= k;
-  return distance_open ? "nothing touches; not looked at for the least distance, which an earlier step breaks" : "";
+  if (!is_decided(outcome, k)) return fmt::format("undecided: {}", why_incomplete(outcome));
+  if (may_be_too_near(outcome, k)) return "undecided: something is about as near as the least distance";
+  const bool distance_open = request.min_distance > 0 && last && *last <= k;
+  return distance_open
+             ? "nothing touches; not looked at for the least distance, which an earlier step breaks or may break"
+             : "";
 }
 
 std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k,
-                    std::optional<std::size_t> refuted) {
+                    std::optional<std::size_t> last) {
   const std::string head = fmt::format("    <testcase classname=\"noli.verify\" name=\"{}\"",
                                        escaped_markup(step_name(request, outcome, k + 1)));
   const std::string fault = k < outcome.steps.size() ? fault_of(request, outcome, k) : "";
   if (!fault.empty()) {
-    const Verdict verdict = outcome.steps[k].touches() ? Verdict::contact : Verdict::too_near;
+    const bool near = may_be_too_near(outcome, k) && outcome.near->witnessed;
+    const Verdict verdict = near ? Verdict::too_near : Verdict::contact;
     return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head, name(verdict),
                        escaped_markup(fault));
   }
-  const std::string why = why_open(request, outcome, k, refuted);
+  const std::string why = why_open(request, outcome, k, last);
   if (why.empty()) return head + "/>\n";
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
@@ -94,9 +103,9 @@ std::string verify_junit(const VerifyRequest& request, const VerifyOutcome& outc
   std::string cases;
   std::size_t failures = 0, skipped = 0;
   const std::size_t count = std::max(outcome.steps_total, outcome.steps.size());
-  const auto refuted = outcome.first_refuted();
+  const auto last = outcome.last_for_distance();
   for (std::size_t k = 0; k < count; ++k) {
-    const std::string one = case_of(request, outcome, k, refuted);
+    const std::string one = case_of(request, outcome, k, last);
     failures += one.find("<failure ") != std::string::npos ? 1 : 0;
     skipped += one.find("<skipped ") != std::string::npos ? 1 : 0;
     cases += one;

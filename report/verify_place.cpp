@@ -50,7 +50,7 @@ class Place {
 
   std::string untouched() const {
     std::string text = nothing_touches_in_short(outcome_.not_compared);
-    text += distance_phrase(request_.min_distance, request_.ring);
+    text += distance_phrase(outcome_.claim);
     Claim others = outcome_.claim;
     if (outcome_.not_compared.any()) others.excluded.clear();  // named above
     for (const std::string& phrase : weakenings(others)) text += "; " + phrase;
@@ -125,9 +125,9 @@ bool intersects_first(const VerifyOutcome& outcome) {
 
 const char* why_incomplete(const VerifyOutcome& outcome) {
   if (outcome.no_proof) return "no proof was found";
-  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
   if (outcome.interrupted) return "interrupted";
   if (outcome.out_of_time) return "time limit";
+  if (outcome.near) return "something is about as near as the least distance, but no witness was found";
   return outcome.steps_total == 0 ? "no window was committed" : "first contact only";
 }
 

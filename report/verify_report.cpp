@@ -56,7 +56,10 @@ Json steps_json(const VerifyOutcome& outcome) {
 Json near_json(const VerifyOutcome& outcome) {
   if (!outcome.near) return nullptr;
   const TooNear& pair = outcome.near->pair;
-  return {{"cells", {pair.first_cell, pair.second_cell}}, {"step", outcome.near->step}, {"part_of_step", pair.time}};
+  return {{"cells", {pair.first_cell, pair.second_cell}},
+          {"step", outcome.near->step},
+          {"part_of_step", pair.time},
+          {"witnessed", outcome.near->witnessed}};
 }
 
 Json proof_json(const VerifyRequest& request, const VerifyOutcome& outcome) {

@@ -268,6 +268,7 @@ class Words {
     std::string others = more ? "; --keep-going counts the contacts of all steps" : "";
     const bool first = outcome_.initial_intersections > 0 && !request_.run && !request_.constant_motion;
     if (first) others = "; --only-new leaves out what intersects from the beginning";
+    if (request_.only_new) others = "; --ignore GROUPS.json lets whole bodies pass each other";
     const std::string result = wanted_.result.empty() ? "result.json" : shell_words({wanted_.result});
     return fmt::format("{}noli export {} -o first.png is a picture of it{}.",
                        wanted_.result.empty() ? "--json result.json keeps the result, and " : "", result, others);

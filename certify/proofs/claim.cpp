@@ -284,10 +284,11 @@ std::vector<std::string> weakenings(const Claim& claim) {
   return phrases;
 }
 
-std::string distance_phrase(double distance, std::uint32_t ring) {
-  if (distance <= 0) return "";
-  const std::string which = ring > 1 ? fmt::format("what is {} mesh edges or more away", ring) : "all";
-  return fmt::format(", and {} is more than {} apart", which, distance);
+std::string distance_phrase(const Claim& claim) {
+  if (claim.distance <= 0) return "";
+  std::string which = claim.excluded.empty() ? "all" : "all that is compared";
+  if (claim.ring > 1) which = fmt::format("what is {} mesh edges or more away", claim.ring);
+  return fmt::format(", and {} is more than {} apart", which, claim.distance);
 }
 
 Json claim_json(const Claim& claim) {

@@ -145,6 +145,8 @@ std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) con
   if (!can_check_) return "standard input and pipes cannot be read a second time";
   if (!can_be_asked(outcome.claim)) return "more pairs of cells are left out than a checker can be asked about";
   if (outcome.no_proof) return "no proof was found";
+  if (outcome.verdict == Verdict::contact && outcome.near)
+    return "the proof ends where something is, or may be, too near before it touches";
   if (outcome.open_window && !pipe_)
     return "the run ends within a window; resume it first (noli simulate ... --resume)";
   return std::nullopt;

@@ -69,7 +69,7 @@ std::optional<std::string> difference(const Claim& asked, const Claim& checked, 
 std::vector<std::string> weakenings(const Claim& claim);
 
 /// What a claim says of its least distance: ", and all is more than 0.1 apart"; empty if it has none.
-std::string distance_phrase(double distance, std::uint32_t ring);
+std::string distance_phrase(const Claim& claim);
 
 /// The fields for --require that a file CLAIM.json asks for (`noli verify --claim-out`); absent members are not asked
 /// for. Throws InputError.

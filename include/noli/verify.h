@@ -191,9 +191,11 @@ struct VerifyOutcome {
   std::string frame_name(std::size_t k) const;
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }
-  /// The first step, from 1, in which something touches or is found too near. No later step is looked at for the least
-  /// distance.
-  std::optional<std::size_t> first_refuted() const;
+  /// Whether a witness shows that something comes too near.
+  bool is_too_near() const { return near && near->witnessed; }
+  /// The first step, from 1, in which something touches, or is or may be too near: the last one that was looked at for
+  /// the least distance. Nothing: there is none.
+  std::optional<std::size_t> last_for_distance() const;
   /// Whether to stop, because of a request or the time limit; notes which.
   bool stop_for(const VerifyRequest& request);
 };

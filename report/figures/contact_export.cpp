@@ -125,6 +125,7 @@ class ContactOf {
 
   Contact near() {
     const Json& json = result_.at("near");
+    if (!json.value("witnessed", true)) refuse("is undecided about what may be too near");
     Contact contact = intersection(json);
     contact.time = json.at("part_of_step").get<double>();
     if (verified_steps(result_, path_).run) refuse("does not say at which time of the run something is too near");

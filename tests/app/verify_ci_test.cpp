@@ -78,6 +78,12 @@ TEST_F(ForIntegration, JunitPassesNoStepWhoseDistanceWasNotLookedAt) {
   EXPECT_NE(xml.find("<skipped message=\"nothing touches; not looked at for the least distance"), std::string::npos);
 }
 
+TEST_F(ForIntegration, JunitFailsWhereContactGoesOn) {
+  const std::string xml = junit({1, 0, 0, 1, 2}, {"--keep-going"});
+  EXPECT_NE(xml.find("tests=\"4\" failures=\"3\" errors=\"0\" skipped=\"0\""), std::string::npos) << xml;
+  EXPECT_EQ(count(xml, "still meet as this one begins"), 2U) << xml;
+}
+
 TEST_F(ForIntegration, AnnotationsNameEachStepAndEndWithTheVerdict) {
   const Process contact = run_noli(verify({1, 0.5, -1}, {"--github"}));
   EXPECT_TRUE(contact.out.starts_with("::error title=noli%3A step 2 (b <&>.ply → c <&>.ply)::3 pairs of features meet"))

@@ -139,6 +139,33 @@ TEST_F(Verify, KeepsGoingBehindWhatIsTooNear) {
   EXPECT_NE(contact["notes"].dump().find("step 1 is the last"), std::string::npos);
 }
 
+/// Exactly at the least distance at a third of the first step, which no witness shows. No proof goes on behind it.
+TEST_F(Verify, KeepsGoingBehindWhatMayBeTooNear) {
+  const auto points = [&](const std::string& name, double x, double y) {
+    return folder.write(name + ".obj", fmt::format("v 0 0 0\nv {} {} 0\np 1\np 2\n", x, y));
+  };
+  const std::string a = points("a", 1, 1), b = points("b", 1, -2), c = points("c", 0.25, 0), d = points("d", -0.25, 0);
+  const Json may_be = json_of({"verify", a, b, c, "--min-distance", "1", "--keep-going"}, 2);
+  EXPECT_EQ(may_be["verdict"], "undecided");
+  EXPECT_EQ(may_be["near"]["step"], 1);
+  EXPECT_EQ(may_be["near"]["witnessed"], false);
+  EXPECT_NE(
+      may_be["notes"].dump().find("step 1 is the last that was looked at for the least distance: something may be "
+                                  "too near in it"),
+      std::string::npos)
+      << may_be["notes"];
+  const Json meets = json_of({"verify", a, b, c, d, "--min-distance", "1", "--keep-going"}, 1);
+  EXPECT_EQ(meets["verdict"], "contact");
+  EXPECT_EQ(meets["first"]["step"], 3);
+  EXPECT_TRUE(meets["checker"].is_null());
+}
+
+TEST_F(Verify, SaysNothingOfTheCheckerWhereItsWitnessIsAboutAnotherStep) {
+  const Json json = json_of(with(frames({2, 1, 0.5, 0.5, -0.5, 1}), {"--keep-going", "--min-distance", "0.75"}), 1);
+  EXPECT_EQ(json["verdict"], "contact");
+  EXPECT_TRUE(json["checker"].is_null()) << json["checker"];
+}
+
 TEST_F(Verify, CountsAContactAtABorderOnce) {
   const Json json = json_of(with(frames({1, 0, -1}), {"--keep-going"}), 1);
   EXPECT_EQ(json["steps"], 2);
