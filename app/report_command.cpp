@@ -115,6 +115,9 @@ class Report {
         {"results", Json::array()}};
   }
 
+  /// Whether it has a verdict about frames or a run without these.
+  bool lacks_motion() const { return verified_ && report_.page["scene"].is_null(); }
+
   const report::ReportPage& operator()() {
     read_results();
     put_frames_in_order();
@@ -293,6 +296,8 @@ ExitCode run(const ReportArguments& arguments) {
   report::Answer answer("written");
   answer.place = fmt::format("{}  {} frames, {} bytes", on_one_line(arguments.output.string()),
                              scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>(), html.size());
+  if (report.lacks_motion())
+    answer.next = "name the frames or the run beside the result, and the page shows the motion.";
   write_words(answer);
   return ExitCode::holds;
 }

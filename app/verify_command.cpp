@@ -182,8 +182,7 @@ void name_frames(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   arguments.given = files_named(request.frames);
   if (request.frames.empty() && !arguments.bodies.any()) {
-    throw UsageError(
-        "`noli verify` needs FRAMES, bodies (--body) or the folder of a run; `noli verify --help` lists them");
+    throw UsageError("`noli verify` needs FRAMES, bodies (--body) or the folder of a run; see `noli verify --help`");
   }
   if (!arguments.bodies.any()) {
     request.frames = named_frames(std::move(request.frames));

@@ -82,7 +82,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
-std::string more_help(const CLI::App& app) { return fmt::format("`{} --help` lists them", full_name(app)); }
+std::string more_help(const CLI::App& app) { return fmt::format("see `{} --help`", full_name(app)); }
 
 /// Not a negative number.
 bool is_option(const std::string& argument) {

@@ -140,11 +140,11 @@ TEST_F(Frames, AllHeadersComeBeforeTheFirstStep) {
   const std::string good = test::read_text(frames[10]);
   folder.write("cloth_10.ply",
                ply_text({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}));
-  refused(
-      with({"verify"}, frames),
-      fmt::format("{}: has 1 faces, but {} has 2; all frames must have the same mesh; use --body for several (frame "
-                  "11 of 12)",
-                  frames[10], frames[0]));
+  refused(with({"verify"}, frames),
+          fmt::format(
+              "{}: has 1 faces, but {} has 2; all frames must have the same mesh; --body is for several bodies (frame "
+              "11 of 12)",
+              frames[10], frames[0]));
   folder.write("cloth_10.ply", "ply\nformat ascii 3.0\n");
   refused(with({"verify"}, frames), frames[10] + ": line 2: expected version 1.0, found '3.0' (frame 11 of 12)");
   folder.write("cloth_10.ply", good);

@@ -116,11 +116,12 @@ TEST(FrameInputs, PolygonsEarnANote) {
   EXPECT_EQ(Taken({other}).polygons(), 1u);
   EXPECT_NE(Taken({other}).non_planarity(), 3) << "another plane";
   EXPECT_GT(Taken({other}).non_planarity(), 0);
-  EXPECT_EQ(input_error([&] {
-              Taken({flat, other});
-            }),
-            other.string() + ": face 0 has vertices [1, 2, 3], but " + flat.string() +
-                " has [0, 1, 2] there; all frames must have the same mesh; use --body for several (frame 2 of 2)");
+  EXPECT_EQ(
+      input_error([&] {
+        Taken({flat, other});
+      }),
+      other.string() + ": face 0 has vertices [1, 2, 3], but " + flat.string() +
+          " has [0, 1, 2] there; all frames must have the same mesh; --body is for several bodies (frame 2 of 2)");
   FrameInputs one({flat, bent});
   one.look_at(0);
   one.look_at(1);
@@ -138,15 +139,15 @@ struct OtherFrame {
 const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const OtherFrame other_frames[] = {
     {"vertices", "b.obj", v3 + "v 1 1 1\nf 1 2 3\n",
-     "has 4 vertices, but NAME has 3; all frames must have the same mesh; use --body for several"},
+     "has 4 vertices, but NAME has 3; all frames must have the same mesh; --body is for several bodies"},
     {"faces", "b.obj", triangle_obj + "f 1 3 2\n",
-     "has 2 faces, but NAME has 1; all frames must have the same mesh; use --body for several"},
+     "has 2 faces, but NAME has 1; all frames must have the same mesh; --body is for several bodies"},
     {"corners", "b.obj", v3 + "f 2 3 1\n",
-     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; use --body for "
-     "several"},
+     "face 0 has vertices [1, 2, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; --body is for "
+     "several bodies"},
     {"relative", "b.obj", v3 + "f -1 -2 -3\n",
-     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; use --body for "
-     "several"},
+     "face 0 has vertices [2, 1, 0], but NAME has [0, 1, 2] there; all frames must have the same mesh; --body is for "
+     "several bodies"},
     {"extension", "b.stl", "solid\n",
      "expected a file that ends in .ply, .obj, .vtu or .vtp, found '.stl'; " + conversion_advice("b.stl")},
     {"packed", "b.obj.gz", "\x1f\x8b",

@@ -117,7 +117,7 @@ TEST_P(DifferentMeshes, AreNamedWithTheFirstDifference) {
   const TemporaryFolder folder;
   const auto a = folder.write("a.obj", cells_obj), b = folder.write("b.obj", GetParam().text);
   std::string expected =
-      b.string() + ": " + GetParam().difference + "; all frames must have the same mesh; use --body for several";
+      b.string() + ": " + GetParam().difference + "; all frames must have the same mesh; --body is for several bodies";
   expected.replace(expected.find("NAME"), 4, a.string());
   FrameInputs frames({a, a, b});
   FrameSequence sequence(frames);

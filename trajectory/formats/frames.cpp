@@ -24,17 +24,17 @@ template <class Cell>
 void require_same_cells(std::string_view what, const std::vector<Cell>& expected, const std::string& expected_name,
                         const std::vector<Cell>& found, const std::string& found_name) {
   if (found.size() != expected.size()) {
-    throw OtherMesh(found_name, "",
-                    fmt::format("has {} {}s, but {} has {}; all frames must have the same mesh; use --body for several",
-                                found.size(), what, expected_name, expected.size()));
+    throw OtherMesh(
+        found_name, "",
+        fmt::format("has {} {}s, but {} has {}; all frames must have the same mesh; --body is for several bodies",
+                    found.size(), what, expected_name, expected.size()));
   }
   const auto [theirs, ours] = std::mismatch(found.begin(), found.end(), expected.begin());
   if (theirs == found.end()) return;
-  throw OtherMesh(
-      found_name, "",
-      fmt::format(
-          "{} {} has vertices {}, but {} has {} there; all frames must have the same mesh; use --body for several",
-          what, theirs - found.begin(), *theirs, expected_name, *ours));
+  throw OtherMesh(found_name, "",
+                  fmt::format("{} {} has vertices {}, but {} has {} there; all frames must have the same mesh; --body "
+                              "is for several bodies",
+                              what, theirs - found.begin(), *theirs, expected_name, *ours));
 }
 
 // --- Formats ---------------------------------------------------------------------------------------------------------
@@ -79,7 +79,7 @@ void require_same_mesh(const Mesh& expected, const std::filesystem::path& expect
   if (found.vertex_count != expected.vertex_count) {
     throw OtherMesh(
         found_name, "",
-        fmt::format("has {} vertices, but {} has {}; all frames must have the same mesh; use --body for several",
+        fmt::format("has {} vertices, but {} has {}; all frames must have the same mesh; --body is for several bodies",
                     found.vertex_count, expected_name, expected.vertex_count));
   }
   require_same_cells("face", expected.faces, expected_name, found.faces, found_name);

@@ -91,7 +91,7 @@ TEST_F(Meshes, WhatIsAboutOneMeshIsRefused) {
 TEST_F(Meshes, OfAMotionStayAnError) {
   const Process process = run_noli({"verify", triangle(), apart()});
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("all frames must have the same mesh; use --body for several"), std::string::npos)
+  EXPECT_NE(process.err.find("all frames must have the same mesh; --body is for several bodies"), std::string::npos)
       << process.err;
   EXPECT_EQ(verify({triangle(), folder.write("bad.ply", "ply\n")}).exit_code, 3);
 }
