@@ -16,10 +16,10 @@
 // greatest squared frequency of all forces of the kind is at most the greatest sum. Verlet's step for them is stable up
 // to 2 / frequency. The 2 in Omega leaves room for as much stiffness of other kinds at the vertex.
 //
-// Each measure is damped by an implicit step, which is stable whatever c is. But forces that share vertices are damped in
-// turn, and all of them together are not a symmetric operator on the velocities, as the last ones count more. With c
-// large it creates energy: a sheet of 12 x 12 cells that swings from two corners gains nothing up to c = 4, a hundredth of
-// what swings at 8, and takes off at 30. So steps that Noli chooses have c <= 8.
+// Each measure is damped by an implicit step, which is stable whatever c is. But forces that share vertices are damped
+// in turn, and all of them together are not a symmetric operator on the velocities, as the last ones count more. With c
+// large it creates energy: a sheet of 12 x 12 cells that swings from two corners gains nothing up to c = 4, a hundredth
+// of what swings at 8, and takes off at 30. So steps that Noli chooses have c <= 8.
 //
 // The bound is for the given shape, usually the start; stress and large strain add stiffness that it does not include.
 // For resonance between steps see resonance.h.

@@ -14,7 +14,9 @@
 namespace noli::app {
 
 void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const std::string& what) {
-  command.add_option("--for", arguments.duration, "Stop after this time, and make findings small: 500ms, 60s, 5m, 1h (60s, without --count)")
+  command
+      .add_option("--for", arguments.duration,
+                  "Stop after this time, and make findings small: 500ms, 60s, 5m, 1h (60s, without --count)")
       ->type_name("TIME");
   command.add_option("--count", arguments.limits.count, "Stop after so many " + what)
       ->check(whole_number(1, std::uint64_t{1} << 60))

@@ -27,8 +27,9 @@ LibraryAnswers ask_in_process(const std::filesystem::path& library, int kind, co
     try {
       answer.code = loaded.ask(kind, query.x_t0.data(), query.x_t1.data(), tolerance, &answer.time);
     } catch (const std::exception& error) {
-      throw InputError(library.string(), "",
-                       fmt::format("threw an exception: {}; `catch throw` in gdb stops where", on_one_line(error.what())));
+      throw InputError(
+          library.string(), "",
+          fmt::format("threw an exception: {}; `catch throw` in gdb stops where", on_one_line(error.what())));
     }
     answer.state = AnswerState::answered;
     result.answers.push_back(answer);

@@ -6,8 +6,8 @@
 // Notation
 //   K, V      kinetic energy and the sum of all potentials at a window's end
 //   B         K + V less what damping, friction and scripts gave since the beginning. Stable steps change it by a few
-//             hundredths. Damping only takes energy: what that of a kind of force gives since its work was least stays in
-//             B, as the steps are then too long for it (integrator/stable_step.h)
+//             hundredths. Damping only takes energy: what that of a kind of force gives since its work was least stays
+//             in B, as the steps are then too long for it (integrator/stable_step.h)
 //   scale     the sum of three: the greatest K + V seen, without the potential of gravity, whose zero is arbitrary (at
 //             least K at the beginning); everything given, in magnitude; the energy that rounding may create
 //

@@ -140,8 +140,8 @@ class ProofParts {
     halve(a, b, pair, span_);
   }
 
-  /// Throws TooNear if the parts are certainly nearer than the least distance at a time: this part of the piece, which is
-  /// `at` on the pair's chords. (In three dimensions a vertex strays from its chord by less than two radii.)
+  /// Throws TooNear if the parts are certainly nearer than the least distance at a time: this part of the piece, which
+  /// is `at` on the pair's chords. (In three dimensions a vertex strays from its chord by less than two radii.)
   void refuse_near(const Pair& pair, double at, const Piece& piece, double part) const {
     if (distance_at_most(pair.points, at, search_rounds) + 2 * pair.strays >= distance_ * (1 - 0x1p-30)) return;
     throw TooNear{first_cell_, second_cell_, std::ldexp(mpz_get_d(piece.k.get()) + part, -static_cast<int>(piece.e))};
