@@ -88,6 +88,9 @@ class Export {
       if (request_.progress) request_.progress(std::min(1.0, static_cast<double>(outcome_.windows) / windows));
       outcome_.end = window->end;
     }
+    if (outcome_.windows == 0 && !outcome_.interrupted) {
+      throw InputError(request_.run.string(), "", "has no windows that are committed; there is nothing to export");
+    }
     outcome_.open_window = !outcome_.interrupted && reader_.open_window().has_value();
     if (has_series()) write_series();
     remove_earlier();

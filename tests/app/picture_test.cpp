@@ -202,6 +202,23 @@ TEST_F(ExportPicture, AFilmHasOneViewOfAllFrames) {
   }
 }
 
+TEST_F(ExportPicture, OfARunWithoutWindowsIsRefused) {
+  const auto json = nlohmann::json::parse(R"({"noli_scene": 1, "title": "Two sheets", "duration": 0.1,
+    "gravity": [0, 0, -9.81], "bodies": [
+      {"name": "floor", "mesh": {"grid": {"size": [1, 1], "cells": [1, 1]}}, "pin": ["all"],
+       "material": {"edge_stiffness": 0, "mass_per_area": 1}},
+      {"name": "sheet", "mesh": {"grid": {"size": [0.5, 0.4], "cells": [1, 1]}}, "transform": {"translate": [0, 0, 1e-5]},
+       "material": {"edge_stiffness": 1, "mass_per_area": 1}}]})");
+  const Process fall = run_noli({"simulate", scene(json), "-o", run_path("r")});
+  ASSERT_NE(fall.out.find("CONTACT  window 1  "), std::string::npos) << fall.out << fall.err;
+  const std::string run = run_path("r");
+  for (const Process& result : {run_noli({"export", run, "--fps", "10", "-o", folder.path("%d.ply")}),
+                                run_noli({"export", run, "--at", "0", "-o", folder.path("p.png")})}) {
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    EXPECT_NE(result.err.find("has no windows"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(ExportPicture, BadInputIsNamed) {
   ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("r")}).exit_code, 0);
   const auto expect_refused = [&](const std::vector<std::string>& options, const char* what) {

@@ -20,7 +20,8 @@ const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";  // lines 1 to 
 
 TEST(Obj, EverythingThatIsAllowed) {
   const Frame frame = parse_obj(
-      "# a comment\r\nmtllib a.mtl\r\no thing\r\nv 1 2 3\r\nv 1 2 0\r\nv 1 2 3 0.5\r\nv 1 2 3 .1 .2 .3\r\nv +1e-3 -0 3 1 "
+      "# a comment\r\nmtllib a.mtl\r\no thing\r\nv 1 2 3\r\nv 1 2 0\r\nv 1 2 3 0.5\r\nv 1 2 3 .1 .2 .3\r\nv +1e-3 -0 3 "
+      "1 "
       ".1 .2 .3\r\n"
       "vt 0 0\r\nvn 0 0 1\r\ng group\r\nusemtl m\r\ns off\r\n"
       "f 1 2 3 4 5\r\nf 1/1 2/1 3/7\r\nf 1//1 2//1 5//1\r\nf 1/1/1 2/1/1 -1/-1/-1 # the last\r\n"
