@@ -207,7 +207,8 @@ TEST_F(ExportPicture, OfARunWithoutWindowsIsRefused) {
     "gravity": [0, 0, -9.81], "bodies": [
       {"name": "floor", "mesh": {"grid": {"size": [1, 1], "cells": [1, 1]}}, "pin": ["all"],
        "material": {"edge_stiffness": 0, "mass_per_area": 1}},
-      {"name": "sheet", "mesh": {"grid": {"size": [0.5, 0.4], "cells": [1, 1]}}, "transform": {"translate": [0, 0, 1e-5]},
+      {"name": "sheet", "mesh": {"grid": {"size": [0.5, 0.4], "cells": [1, 1]}},
+       "transform": {"translate": [0, 0, 1e-5]},
        "material": {"edge_stiffness": 1, "mass_per_area": 1}}]})");
   const Process fall = run_noli({"simulate", scene(json), "-o", run_path("r")});
   ASSERT_NE(fall.out.find("CONTACT  window 1  "), std::string::npos) << fall.out << fall.err;
