@@ -104,7 +104,14 @@ double last_time(const Holds& holds, double from, double guess) {
       probe(about - (std::int64_t{1} << shift));
     }
   }
-  while (low + 1 < high) probe(std::midpoint(low, high));  // their difference might overflow
+  while (low + 1 < high) {
+    const std::int64_t middle = std::midpoint(low, high);  // their difference might overflow
+    if (holds(of_order(middle))) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
   return of_order(low);
 }
 

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -56,7 +57,7 @@ class Reading {
       return 0;
     }
     const std::size_t got = std::min(size, child_->out.size());
-    std::memcpy(to, child_->out.data(), got);
+    std::copy_n(child_->out.begin(), got, to);
     child_->out.erase(0, got);
     return got;
   }

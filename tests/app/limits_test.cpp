@@ -337,7 +337,8 @@ class LongMotion : public testing::Test {
     std::vector<double> x;
     for (std::size_t k = 0; k < frames; ++k) {
       for (std::size_t v = 0; v < vertices; ++v) {
-        const double u = static_cast<double>(v % side), w = static_cast<double>(v / side);
+        const std::size_t column = v % side, row = v / side;
+        const auto u = static_cast<double>(column), w = static_cast<double>(row);
         x.insert(x.end(), {u, w, std::sin(0.1 * u + 0.2 * static_cast<double>(k)) * std::cos(0.07 * w)});
       }
     }

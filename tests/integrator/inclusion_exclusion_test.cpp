@@ -203,10 +203,11 @@ struct Patches {
     for (const double sheet : {0.0, 1.0}) {
       const double turn = sheet * random.unit(), dx = 0.02 * (random.unit() - 0.5), dy = 0.02 * (random.unit() - 0.5);
       for (int i = 0; i < 9; ++i) {
-        const double u = side * (i % 3 - 1), v = side * (i / 3 - 1);
-        x.push_back({u * std::cos(turn) - v * std::sin(turn) + sheet * dx,
-                     u * std::sin(turn) + v * std::cos(turn) + sheet * dy,
-                     sheet * gap + bumps * (random.unit() - 0.5)});
+        const int column = i % 3, row = i / 3;
+        const double u = side * (column - 1), v = side * (row - 1);
+        x.emplace_back(u * std::cos(turn) - v * std::sin(turn) + sheet * dx,
+                       u * std::sin(turn) + v * std::cos(turn) + sheet * dy,
+                       sheet * gap + bumps * (random.unit() - 0.5));
       }
       const auto first = static_cast<VertexId>(9 * sheet);
       for (const VertexId k : {0U, 1U, 3U, 4U}) {
@@ -340,7 +341,7 @@ Model<double, 3> points_above_a_floor(const std::vector<double>& from_edge) {
   std::vector<Vec<double, 3>> x;
   for (std::size_t k = 0; k < from_edge.size(); ++k) {
     const double along = 0.1 * static_cast<double>(k) - 0.3, off = from_edge[k] / std::numbers::sqrt2;
-    x.push_back({along + off, along - off, 0.02});
+    x.emplace_back(along + off, along - off, 0.02);
   }
   Model<double, 3> floor;
   floor.mesh.vertex_count = 4;

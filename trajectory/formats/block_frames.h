@@ -16,7 +16,7 @@ namespace noli {
 class BlockFrames : public StoredFrames {
  public:
   /// Throws InputError: no such file, or none of frames.
-  explicit BlockFrames(const std::filesystem::path& file);
+  explicit BlockFrames(const std::filesystem::path& path);
 
   std::optional<std::size_t> count() const override { return count_; }
   std::optional<Frame> read(std::size_t k) override;

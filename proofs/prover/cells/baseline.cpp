@@ -49,9 +49,13 @@ std::vector<std::uint32_t> Baseline::cells_with(std::span<const VertexId> featur
   for (std::size_t i = 0; i < feature.size(); ++i) {
     const auto at = cells_at_.find(feature[i]);
     if (at == cells_at_.end()) return {};
+    if (i == 0) {
+      cells = at->second;
+      continue;
+    }
     std::vector<std::uint32_t> both;
-    if (i > 0) std::ranges::set_intersection(cells, at->second, std::back_inserter(both));
-    cells = i == 0 ? at->second : std::move(both);
+    std::ranges::set_intersection(cells, at->second, std::back_inserter(both));
+    cells = std::move(both);
   }
   return cells;
 }

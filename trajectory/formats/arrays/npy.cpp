@@ -183,7 +183,7 @@ void convert(ByteStream& bytes, const NpyHeader& header, const std::string& name
                    if (number > std::uint64_t{INT64_MAX})
                      throw InputError(name, "", fmt::format("has the index {}", number));
                  }
-                 numbers[first + i] = static_cast<To>(number);
+                 numbers[first + i] = static_cast<To>(number);  // NOLINT(bugprone-signed-char-misuse): int8 is a number
                }
              });
 }
@@ -213,10 +213,9 @@ std::optional<NpyHeader> read_npy_header(ByteStream& bytes, const std::string& n
   if (got < 8 || std::string_view(begin.data(), magic.size()) != magic) {
     throw InputError(name, "", "is no array of numpy: it does not begin with \\x93NUMPY");
   }
-  const int version = begin[6];
-  if (version < 1 || version > 3 || begin[7] != 0) {
-    throw InputError(name, "",
-                     fmt::format("has version {}.{} of the format; expected 1.0 to 3.0", version, int{begin[7]}));
+  const auto version = static_cast<unsigned char>(begin[6]), minor = static_cast<unsigned char>(begin[7]);
+  if (version < 1 || version > 3 || minor != 0) {
+    throw InputError(name, "", fmt::format("has version {}.{} of the format; expected 1.0 to 3.0", version, minor));
   }
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   if (bytes.read_all(begin.data() + 8, length_bytes) < length_bytes) fail_at_end(name);
