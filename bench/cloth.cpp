@@ -47,8 +47,8 @@ class Builder {
   void add_vertex(const Vec& x) {
     rest_.push_back(x);
     const double wave = x[0] * (1 - x[0]) * x[1];
-    model_.x.push_back(x + Vec(0, 0, 0.1 * wave));
-    model_.v.push_back(Vec(0, 0, wave));
+    model_.x.emplace_back(x + Vec(0, 0, 0.1 * wave));
+    model_.v.emplace_back(0, 0, wave);
     model_.mass.push_back(0);
   }
 

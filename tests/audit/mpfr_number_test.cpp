@@ -166,7 +166,7 @@ TEST(MpfrNumber, IsCopiedExactlyBetweenPrecisions) {
   const MpfrNumber third = MpfrNumber(1.0) / MpfrNumber(3.0);
   {
     const MpfrScope inner(hardware_double);
-    const MpfrNumber copy = third;
+    const MpfrNumber copy = third;  // NOLINT(performance-unnecessary-copy-initialization): it is what is tested
     MpfrNumber assigned;
     assigned = third;
     EXPECT_TRUE(copy == third && assigned == third);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Libraries for the tests of `noli audit ccd`, one for each way to behave (MISBEHAVIOUR, below), in C99. */
+/* NOLINTBEGIN(bugprone-reserved-identifier, performance-no-int-to-ptr): it has to misbehave. */
 #define _DEFAULT_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -208,3 +209,4 @@ const char* noli_ccd_description(void) {
   return IS(says_too_much) ? much : "tests 1.0\nof Noli";
 }
 #endif
+/* NOLINTEND(bugprone-reserved-identifier, performance-no-int-to-ptr) */
