@@ -38,11 +38,9 @@ const std::vector<InitialIntersection>& SequenceVerifier::baseline(std::span<con
 
 std::optional<StepResult> SequenceVerifier::add(std::span<const Position> x) {
   if (options_.at_rest) return step(x, x);
-  std::vector<Position> frame(x.begin(), x.end());
-  std::optional<StepResult> result;
-  if (last_) result = step(std::vector<Position>(*last_), frame);
-  last_ = std::move(frame);
-  return result;
+  if (last_) return step(*last_, x);
+  last_.emplace(x.begin(), x.end());
+  return std::nullopt;
 }
 
 VerifyOptions SequenceVerifier::step_options() const {
@@ -73,18 +71,17 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
   result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
-  if (result.touches() && !options_.at_rest) {
-    rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, {x_t1.begin(), x_t1.end()}, steps_before, meeting_before};
+  if (result.touches() && !std::ranges::equal(x_t0, x_t1)) {
+    rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
   }
   if (last_) last_->assign(x_t1.begin(), x_t1.end());
   return result;
 }
 
-/// If the step that comes is another attempt at the last one, what that one met counts as never seen. A step from where
-/// it ended is no such attempt, even if it began there too.
+/// If the step that comes is another attempt at the last one, what that one met counts as never seen.
 void SequenceVerifier::take_back(std::span<const Position> x_t0) {
   const auto rejected = std::exchange(rejected_, std::nullopt);
-  if (!rejected || !std::ranges::equal(x_t0, rejected->x_t0) || std::ranges::equal(x_t0, rejected->x_t1)) return;
+  if (!rejected || !std::ranges::equal(x_t0, rejected->x_t0)) return;
   steps_ = rejected->steps;
   meeting_at_end_ = rejected->meeting_at_end;
 }

@@ -99,10 +99,7 @@ void Verification::note_distance() {
   const char* const what = outcome_.is_too_near() ? "is too near" : outcome_.near ? "may be too near" : "touches";
   outcome_.notes.push_back(
       fmt::format("{} {} is the last that was looked at for the least distance: something {} in it",
-                  request_.run               ? "window"
-                  : request_.constant_motion ? "frame"
-                                             : "step",
-                  *last, what));
+                  request_.step_word(), *last, what));
 }
 
 void Verification::set_verdict(bool all) {

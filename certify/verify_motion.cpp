@@ -261,7 +261,7 @@ class RunVerification : private Verification {
     } else if (!outcome_.touches()) {
       search_proof(*proof_, step, *verifier_, options());
     }
-    witness_sought_ = witness_sought_ || doubtful();
+    witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
   }
 

@@ -333,7 +333,7 @@ class SequenceVerification : private Verification {
     } else {
       prove_untouched(step, result);
     }
-    witness_sought_ = witness_sought_ || doubtful();
+    witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
   }
 

@@ -22,14 +22,15 @@ bool is_decided(const VerifyOutcome& outcome, std::size_t k) {
   return k + 1 < outcome.steps.size() || (k + 1 == outcome.steps.size() && outcome.complete);
 }
 
-bool may_be_too_near(const VerifyOutcome& outcome, std::size_t k) {
-  return outcome.near && outcome.near->step == k + 1;
-}
+/// Whether the step is too near, or may be.
+bool is_near(const VerifyOutcome& outcome, std::size_t k) { return outcome.near && outcome.near->step == k + 1; }
+
+bool is_too_near(const VerifyOutcome& outcome, std::size_t k) { return outcome.is_too_near() && is_near(outcome, k); }
 
 /// What is wrong with a step that was begun; nothing: nothing touches in it.
 std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
   const StepCounts& step = outcome.steps[k];
-  if (may_be_too_near(outcome, k) && outcome.near->witnessed) {
+  if (is_too_near(outcome, k)) {
     return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
                        outcome.near->pair.second_cell, request.min_distance);
   }
@@ -60,7 +61,7 @@ std::string why_open(const VerifyRequest& request, const VerifyOutcome& outcome,
     return fmt::format("not looked at: verification stopped {} (--keep-going)", why);
   }
   if (!is_decided(outcome, k)) return fmt::format("undecided: {}", why_incomplete(outcome));
-  if (may_be_too_near(outcome, k)) return "undecided: something is about as near as the least distance";
+  if (is_near(outcome, k)) return "undecided: something is about as near as the least distance";
   const bool distance_open = request.min_distance > 0 && last && *last <= k;
   return distance_open
              ? "nothing touches; not looked at for the least distance, which an earlier step breaks or may break"
@@ -73,8 +74,7 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
                                        escaped_markup(step_name(request, outcome, k + 1)));
   const std::string fault = k < outcome.steps.size() ? fault_of(request, outcome, k) : "";
   if (!fault.empty()) {
-    const bool near = may_be_too_near(outcome, k) && outcome.near->witnessed;
-    const Verdict verdict = near ? Verdict::too_near : Verdict::contact;
+    const Verdict verdict = is_too_near(outcome, k) ? Verdict::too_near : Verdict::contact;
     return fmt::format("{}>\n      <failure type=\"{}\" message=\"{}\"/>\n    </testcase>\n", head, name(verdict),
                        escaped_markup(fault));
   }

@@ -94,11 +94,6 @@ class Place {
 
 }  // namespace
 
-const char* step_word(const VerifyRequest& request) {
-  if (request.run) return "window";
-  return request.constant_motion ? "frame" : "step";
-}
-
 const char* steps_word(const VerifyRequest& request, std::size_t count) {
   if (request.run) return count == 1 ? "window" : "windows";
   if (request.constant_motion) return count == 1 ? "frame at rest" : "frames at rest";
@@ -133,7 +128,7 @@ const char* why_incomplete(const VerifyOutcome& outcome) {
 
 std::string step_name(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t number) {
   const std::string frames = step_frames(request, outcome, number);
-  return fmt::format("{} {}{}", step_word(request), number, frames.empty() ? "" : " (" + frames + ")");
+  return fmt::format("{} {}{}", request.step_word(), number, frames.empty() ? "" : " (" + frames + ")");
 }
 
 std::string place_of(const VerifyRequest& request, const VerifyOutcome& outcome) { return Place(request, outcome)(); }

@@ -11,8 +11,7 @@
 
 namespace noli::report {
 
-/// "step", "frame", "window"; and how many of them: "steps", "frames at rest", "windows".
-const char* step_word(const VerifyRequest& request);
+/// How many steps: "steps", "frames at rest", "windows".
 const char* steps_word(const VerifyRequest& request, std::size_t count);
 
 /// "c.ply → d.ply", "c.ply" for a frame at rest, nothing for a window; `number`: from 1.

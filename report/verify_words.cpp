@@ -97,7 +97,7 @@ class Words {
          touching_steps(), outcome_.steps.size(), steps_word(request_, outcome_.steps.size()));
     table();
     for (const ListedContact& listed : outcome_.reports) {
-      detail("  {} {}  t = {}  {}  {}", step_word(request_), listed.step, digits17(listed.time), name(listed.kind),
+      detail("  {} {}  t = {}  {}  {}", request_.step_word(), listed.step, digits17(listed.time), name(listed.kind),
              who_and_where(listed, outcome_.dimension));
     }
     const auto left_out = outcome_.contact_count() - outcome_.reports.size();
@@ -121,7 +121,7 @@ class Words {
     const StepCounts& step = outcome_.steps[k];
     const std::string frames = step_frames(request_, outcome_, k + 1);
     const std::string gap = frames.empty() ? "" : "  " + frames + std::string(frames_width - columns(frames), ' ');
-    return fmt::format("  {} {:>4}{}  {:>7}  {}\n", step_word(request_), k + 1, gap, step.contact_count(),
+    return fmt::format("  {} {:>4}{}  {:>7}  {}\n", request_.step_word(), k + 1, gap, step.contact_count(),
                        how_it_begins(step));
   }
 
@@ -150,7 +150,7 @@ class Words {
     for (std::size_t i = 0; i < outcome_.initial_reports.size(); ++i) {
       const auto& [step, pair] = outcome_.initial_reports[i];
       listed(i, shown,
-             fmt::format("  {} {}: cells {} and {}\n", step_word(request_), step, pair.first_cell, pair.second_cell));
+             fmt::format("  {} {}: cells {} and {}\n", request_.step_word(), step, pair.first_cell, pair.second_cell));
     }
     const auto left_out = outcome_.initial_intersections - shown;
     if (left_out > 0) line("  ... and {} more (-v, --max-reports)", left_out);

@@ -103,9 +103,9 @@ class SequenceVerifier {
   VerifyOptions step_options() const;
 
  private:
-  /// A step that touches: its frames, and what was known before it. It may be tried again.
+  /// A step that touches and may be tried again: where it began, and what was known before it.
   struct Rejected {
-    std::vector<Position> x_t0, x_t1;
+    std::vector<Position> x_t0;
     std::uint64_t steps;
     bool meeting_at_end;
   };
@@ -122,7 +122,7 @@ class SequenceVerifier {
   std::uint64_t steps_ = 0;
   bool meeting_at_end_ = false;  ///< some pair met in the previous step: only then can one meet as the next one begins
   std::optional<std::vector<Position>> last_;  ///< frame of add()
-  std::optional<Rejected> rejected_;           ///< the last step, if it touches
+  std::optional<Rejected> rejected_;           ///< the last step, if it touches; not if it ended where it began
 };
 
 }  // namespace noli

@@ -83,6 +83,8 @@ struct VerifyRequest {
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
+  /// What messages call a step: "window" of a run, "frame" at rest, "step".
+  const char* step_word() const { return run ? "window" : constant_motion ? "frame" : "step"; }
 
   /// Puts `frames` into `order`. Throws InputError when they are given against their numbers.
   void put_in_order();
@@ -194,7 +196,7 @@ struct VerifyOutcome {
   /// Whether a witness shows that something comes too near.
   bool is_too_near() const { return near && near->witnessed; }
   /// The first step, from 1, in which something touches, or is or may be too near: the last one that was looked at for
-  /// the least distance. Nothing: there is none.
+  /// the least distance. Empty if there is no such step.
   std::optional<std::size_t> last_for_distance() const;
   /// Whether to stop, because of a request or the time limit; notes which.
   bool stop_for(const VerifyRequest& request);
