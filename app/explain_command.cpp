@@ -9,6 +9,7 @@
 #include "app/output.h"
 #include "certify/run_explanation.h"
 #include "certify/runs/run_folder.h"
+#include "certify/simulate/start_check.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
 #include "report/run_explanation_report.h"
@@ -51,7 +52,9 @@ ExitCode run(const ExplainArguments& arguments) {
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const Output output(arguments.results, inputs_of_scene(arguments.scene));
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
-  const integrator::Explanation explanation = integrator::explain(scene);
+  integrator::Explanation explanation = integrator::explain(scene);
+  const std::string met = contact_at_start(scene);
+  if (!met.empty()) explanation.warnings.push_back("the scene begins in contact, which no run does: " + met);
   if (arguments.brief) note_missing_short_form(scene);
   report::Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
   answer.text = integrator::to_text(explanation);

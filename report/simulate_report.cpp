@@ -89,6 +89,9 @@ std::string too_near_text(const SimulateOutcome& outcome) {
       refused_window(outcome), pair, digits17(outcome.limit->time), start ? "; " + begins : "");
 }
 
+/// The time that the committed windows cover.
+std::string span(const SimulateOutcome& outcome) { return fmt::format("from 0 to {} s", outcome.time); }
+
 /// All windows are there, and nothing touches in them.
 std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
@@ -96,7 +99,7 @@ std::string unstable_text(const SimulateOutcome& outcome) {
       "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
       "nothing, and is not that of the scene: its steps are too long, also for damping, or kick in time (`noli "
       "explain`).",
-      nothing_touches(outcome.not_compared, "from beginning to end"), energy.begin, energy.there, digits17(energy.time),
+      nothing_touches(outcome.not_compared, span(outcome)), energy.begin, energy.there, digits17(energy.time),
       energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
 
@@ -116,7 +119,7 @@ std::string end_text(const SimulateOutcome& outcome) {
   switch (outcome.end) {
     case RunEnd::done:
       if (outcome.windows == 0) return "No window was asked for.";
-      return nothing_touches(outcome.not_compared, "from beginning to end");
+      return nothing_touches(outcome.not_compared, span(outcome));
     case RunEnd::contact: {
       const ListedContact& first = *outcome.first;
       return fmt::format(

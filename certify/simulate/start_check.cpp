@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "certify/simulate/model_facts.h"
+#include "certify/simulate/model_run.h"
+#include "integrator/scene/build_model.h"
 #include "trajectory/stop.h"
 
 namespace noli {
@@ -15,6 +18,20 @@ std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names
   cell -= mesh.faces.size();
   if (cell < mesh.edges.size()) return names.feature(mesh.edges[cell]);
   return names.feature({&mesh.points[cell - mesh.edges.size()], 1});
+}
+
+template <int Dim>
+std::string contact_at_start_of(const integrator::Scene& scene) {
+  const integrator::BuiltScene<Dim> built = integrator::build_model<Dim>(scene);
+  const std::vector<std::uint8_t> labels = labels_of<Dim>(built.model);
+  const Exclusions exclusions = exclusions_of<Dim>(built.model);
+  const std::vector<Position> x = positions_of<Dim>(built.model.x);
+  WindowOptions options;
+  options.dimension = Dim;
+  options.scripted = labels;
+  options.exclusions = &exclusions;
+  const WindowVerifier verifier(built.model.mesh, x, options);
+  return contact_at_start(verifier, built.model.mesh, x, options, names_of(built.bodies));
 }
 
 }  // namespace
@@ -36,6 +53,10 @@ std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, c
   }
   return fmt::format("{}; {} pair(s) of features meet, {} pair(s) of cells intersect; expected none", pairs,
                      result.contact_count(), result.initial_intersections);
+}
+
+std::string contact_at_start(const integrator::Scene& scene) {
+  return scene.dimension == 2 ? contact_at_start_of<2>(scene) : contact_at_start_of<3>(scene);
 }
 
 }  // namespace noli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certify/body_names.h"
+#include "integrator/scene/scene.h"
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
@@ -13,5 +14,8 @@ namespace noli {
 /// the verifier; `options`: as for a window. Throws Stopped if a stop comes before the answer is known.
 std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, const std::vector<Position>& x,
                              WindowOptions options, const BodyNames& names);
+
+/// The same of a scene that is not going to run. Throws InputError as build_model does.
+std::string contact_at_start(const integrator::Scene& scene);
 
 }  // namespace noli
