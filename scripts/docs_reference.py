@@ -108,24 +108,46 @@ def members(schema, link, defaults):
     return "\n".join(rows) + "\n"
 
 
+def forms(schema):
+    """The schema itself, or what it may be one of."""
+    return next((schema[several] for several in ("oneOf", "anyOf") if several in schema), [schema])
+
+
+def objects_in(schema):
+    """Objects that are described in place: what a member holds, or each entry of its array."""
+    for form in forms(schema):
+        if "properties" in form:
+            yield form
+        elif isinstance(form.get("items"), dict):
+            yield from objects_in(form["items"])
+
+
+def with_inner_objects(schema, path):
+    """A table of members, and a table for each of them that is an object without a name of its own."""
+    parts = [members(schema, True, True)]
+    for name, member in schema.get("properties", {}).items():
+        inner = f"{path}/{name}"
+        for form in objects_in(member):
+            parts += [f"Members of `{inner}`:\n", with_inner_objects(form, inner)]
+    return "\n".join(parts)
+
+
 def definition(name, schema):
     parts = [f"### {name}\n"]
     if "description" in schema:
         parts.append(cell(description_of(schema)) + "\n")
     if "properties" in schema:
-        parts.append(members(schema, True, True))
+        parts.append(with_inner_objects(schema, name))
     else:
         parts.append("Value: " + type_of(schema, True) + ".\n")
-    for several in ("oneOf", "anyOf"):
-        for number, part in enumerate(schema.get(several, []), start=1):
-            if "properties" in part:
-                parts.append(f"Form {number}:\n\n" + members(part, True, True))
+        for form in objects_in(schema):
+            parts.append("Members of an object:\n\n" + with_inner_objects(form, name))
     return "\n".join(parts)
 
 
 def scene():
     schema = json.loads((ROOT / "schemas/scene.json").read_text(encoding="utf-8"))
-    parts = ["## The scene\n", members(schema, True, True), "## Its parts\n"]
+    parts = ["## The scene\n", with_inner_objects(schema, "scene"), "## Its parts\n"]
     parts += [definition(name, part) for name, part in schema["$defs"].items()]
     return "\n".join(parts)
 
