@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include <noli/errors.h>
+#include "proofs/prover/cells/features.h"
+
 namespace noli {
 namespace {
 
@@ -67,6 +70,14 @@ std::string BodyNames::feature(std::span<const VertexId> vertices) const {
   std::string text = names[vertices.size() - 1];
   for (std::size_t i = 0; i < vertices.size(); ++i) text += (i == 0 ? " " : "-") + vertex(vertices[i]);
   return text;
+}
+
+std::string BodyNames::cell(const Mesh& mesh, std::uint32_t cell) const {
+  const Body* const body = body_of(corners(mesh, cell)[0]);
+  if (body == nullptr) return fmt::format("cell {}", cell);
+  const std::string name = on_one_line(body->name);
+  if (body->first_face && cell < mesh.faces.size()) return fmt::format("face {}[{}]", name, cell - *body->first_face);
+  return fmt::format("cell {} ({})", cell, name);
 }
 
 std::string BodyNames::pair(FeaturePair kind, std::span<const VertexId> vertices, const std::string& between) const {

@@ -71,6 +71,11 @@ void Verification::list_contacts(const Mesh& mesh, const BodyNames& names) {
   }
   if (outcome_.first) all.push_back(&*outcome_.first);
   name_owners(mesh, names, all);
+  const auto name = [&](auto& listed) {
+    listed.names = {names.cell(mesh, listed.pair.first_cell), names.cell(mesh, listed.pair.second_cell)};
+  };
+  for (ListedInitial& listed : outcome_.initial_reports) name(listed);
+  if (outcome_.near) name(*outcome_.near);
 }
 
 void Verification::search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,

@@ -31,8 +31,8 @@ bool is_too_near(const VerifyOutcome& outcome, std::size_t k) { return outcome.i
 std::string fault_of(const VerifyRequest& request, const VerifyOutcome& outcome, std::size_t k) {
   const StepCounts& step = outcome.steps[k];
   if (is_too_near(outcome, k)) {
-    return fmt::format("cells {} and {} are not more than {} apart", outcome.near->pair.first_cell,
-                       outcome.near->pair.second_cell, request.min_distance);
+    return fmt::format("{} and {} are not more than {} apart", outcome.near->names[0], outcome.near->names[1],
+                       request.min_distance);
   }
   if (!step.touches()) return step.goes_on ? "features that met in the step before still meet as this one begins" : "";
   const bool whole = is_decided(outcome, k) && !request.first_only;

@@ -69,9 +69,9 @@ class Place {
                          request_.run ? " s" : "", who_and_where(first, outcome_.dimension), rests_on());
     }
     if (outcome_.initial_reports.empty()) return "from the beginning" + rests_on();
-    const auto& [number, pair] = outcome_.initial_reports.front();
-    return fmt::format("{}  from its beginning  cell {} × cell {}{}", step_name(request_, outcome_, number),
-                       pair.first_cell, pair.second_cell, rests_on());
+    const ListedInitial& first = outcome_.initial_reports.front();
+    return fmt::format("{}  from its beginning  {} × {}{}", step_name(request_, outcome_, first.step), first.names[0],
+                       first.names[1], rests_on());
   }
 
   /// What the checker's witness rests on that is not asked by default: "; z does not count".
@@ -81,11 +81,11 @@ class Place {
   }
 
   std::string near() const {
-    const TooNear& pair = outcome_.near->pair;
+    const ListedNear& near = *outcome_.near;
     const std::string ring = request_.ring > 1 ? fmt::format(", {} mesh edges or more away", request_.ring) : "";
-    return fmt::format("{}  for example at t = {}: cell {} × cell {}, not more than {} apart{}",
-                       step_name(request_, outcome_, outcome_.near->step), digits4(pair.time), pair.first_cell,
-                       pair.second_cell, request_.min_distance, ring);
+    return fmt::format("{}  for example at t = {}: {} × {}, not more than {} apart{}",
+                       step_name(request_, outcome_, near.step), digits4(near.pair.time), near.names[0], near.names[1],
+                       request_.min_distance, ring);
   }
 
   const VerifyRequest& request_;

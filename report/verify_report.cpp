@@ -28,8 +28,9 @@ Json reports_json(const VerifyOutcome& outcome) {
 
 Json initial_reports_json(const VerifyOutcome& outcome) {
   Json list = Json::array();
-  for (const auto& [step, pair] : outcome.initial_reports) {
-    list.push_back({{"cells", {pair.first_cell, pair.second_cell}}, {"step", step}});
+  for (const ListedInitial& listed : outcome.initial_reports) {
+    const InitialIntersection& pair = listed.pair;
+    list.push_back({{"cells", {pair.first_cell, pair.second_cell}}, {"names", listed.names}, {"step", listed.step}});
   }
   const auto listed = outcome.initial_reports.size();
   return {{"listed", listed}, {"left_out", outcome.initial_intersections - listed}, {"intersections", list}};
@@ -57,6 +58,7 @@ Json near_json(const VerifyOutcome& outcome) {
   if (!outcome.near) return nullptr;
   const TooNear& pair = outcome.near->pair;
   return {{"cells", {pair.first_cell, pair.second_cell}},
+          {"names", outcome.near->names},
           {"step", outcome.near->step},
           {"part_of_step", pair.time},
           {"witnessed", outcome.near->witnessed}};

@@ -148,9 +148,9 @@ class Words {
          request_.constant_motion ? "in its frame" : "before anything moves");
     const std::size_t shown = std::min(most_intersections, outcome_.initial_reports.size());
     for (std::size_t i = 0; i < outcome_.initial_reports.size(); ++i) {
-      const auto& [step, pair] = outcome_.initial_reports[i];
+      const ListedInitial& pair = outcome_.initial_reports[i];
       listed(i, shown,
-             fmt::format("  {} {}: cells {} and {}\n", request_.step_word(), step, pair.first_cell, pair.second_cell));
+             fmt::format("  {} {}: {} and {}\n", request_.step_word(), pair.step, pair.names[0], pair.names[1]));
     }
     const auto left_out = outcome_.initial_intersections - shown;
     if (left_out > 0) line("  ... and {} more (-v, --max-reports)", left_out);

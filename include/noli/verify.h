@@ -106,9 +106,13 @@ constexpr std::string_view name(Verdict verdict) {
   return "";
 }
 
+/// "face shirt[17]" as the body counts its faces, "cell 17 (cloth)" of a run, "cell 17" where bodies have no names.
+using CellNames = std::array<std::string, 2>;
+
 struct ListedInitial {
   std::size_t step = 0;  ///< from 1
   InitialIntersection pair;
+  CellNames names = {};
 };
 
 /// Two cells that come nearer than min_distance, and approximately when.
@@ -116,6 +120,7 @@ struct ListedNear {
   std::size_t step = 0;  ///< from 1
   TooNear pair;
   bool witnessed = false;  ///< a witness in the proof shows it exactly
+  CellNames names = {};
 };
 
 /// What was found in one step.

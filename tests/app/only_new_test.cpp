@@ -153,7 +153,7 @@ TEST_F(OnlyNew, OfFramesAtRestAndWithALeastDistance) {
   const Words meeting = {frame(0, 5), frame(0, 0)};
   const Process met = verify(meeting, {"--only-new", "--static", "--keep-going"});
   EXPECT_EQ(met.exit_code, 1);
-  EXPECT_NE(met.out.find("2: cells 0 and 2"), std::string::npos) << met.out;
+  EXPECT_NE(met.out.find("2: cell 0 and cell 2"), std::string::npos) << met.out;
   const Words frames = apart();
   ASSERT_EQ(verify(frames, {"--only-new", "--min-distance", "0.5"}).exit_code, 0);
   EXPECT_EQ(check(frames, {"--claim", claim()}), 0);

@@ -65,7 +65,7 @@ TEST_F(ForIntegration, JunitSkipsWhatTimeDidNotReach) {
 
 TEST_F(ForIntegration, JunitTellsWhatIsTooNear) {
   const std::string xml = junit({1, 0.5}, {"--min-distance", "0.75"});
-  EXPECT_NE(xml.find("<failure type=\"too_near\" message=\"cells 0 and 1 are not more than 0.75 apart\"/>"),
+  EXPECT_NE(xml.find("<failure type=\"too_near\" message=\"cell 0 and cell 1 are not more than 0.75 apart\"/>"),
             std::string::npos)
       << xml;
 }

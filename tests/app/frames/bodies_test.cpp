@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 
 #include "tests/app/audits/libraries.h"
 #include "tests/app/process.h"
@@ -58,7 +59,7 @@ class Bodies : public testing::Test {
   /// Without what tells bodies, and what differs from run to run.
   static Json without(Json json) {
     if (json.is_object()) {
-      for (const char* const member : {"inputs", "notes", "timing", "order", "bodies", "own", "proof"})
+      for (const char* const member : {"inputs", "notes", "timing", "order", "bodies", "own", "names", "proof"})
         json.erase(member);
     }
     for (Json& part : json) {
@@ -107,6 +108,18 @@ TEST_F(Bodies, AreNamedWithTheirOwnNumbers) {
   folder.write("r.json", json.dump());
   const Process shown = run_noli({"export", folder.path("r.json"), "-o", folder.path("hits.vtu")});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;
+}
+
+TEST_F(Bodies, NameCellsThatAreTooNear) {
+  const Words near = Words{"verify", "--min-distance", "1e3"} + bodies("[0-2]");
+  const Json names = json_of(near, 1)["near"]["names"];
+  ASSERT_EQ(names.size(), 2u);
+  for (const Json& name : names) {
+    EXPECT_TRUE(std::regex_match(name.get<std::string>(), std::regex(R"(face (shirt|man|floor)\[[01]\])"))) << name;
+  }
+  const Process process = run_noli(near);
+  const std::string pair = names[0].get<std::string>() + " × " + names[1].get<std::string>();
+  EXPECT_NE(process.verdict_line().find(pair), std::string::npos) << process.out;
 }
 
 TEST_F(Bodies, ThatMayTouchAreNamedToo) {
