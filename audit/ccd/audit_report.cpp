@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
+#include <vector>
 
 #include <noli/errors.h>
 
@@ -238,10 +240,22 @@ std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path&
 }
 
 std::string said_text(const std::string& who, const std::string& said) {
-  constexpr std::size_t most = 300;
-  const std::string end = said.size() > most ? "..." + said.substr(said.size() - most) : said;
-  return fmt::format("{} wrote to its standard error: {}\n", who,
-                     on_one_line(end.substr(0, end.find_last_not_of('\n') + 1)));
+  constexpr std::size_t most = 20;
+  std::vector<std::string> lines;
+  std::istringstream in(said);
+  for (std::string line; std::getline(in, line);) lines.push_back(on_one_line(line));
+  if (lines.size() == 1) return fmt::format("{} wrote to its standard error: {}\n", who, lines.front());
+  // Sanitizers begin with this word and end with a legend; of what others write, the last lines tell most.
+  const auto error = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) {
+    return line.find("ERROR: ") != std::string::npos;
+  });
+  std::size_t begin = lines.size() > most ? lines.size() - most : 0;
+  if (error != lines.rend()) begin = static_cast<std::size_t>(lines.rend() - error) - 1;
+  const std::size_t end = std::min(lines.size(), begin + most);
+  std::string text = fmt::format("{} wrote to its standard error", who);
+  text += end - begin < lines.size() ? fmt::format(" {} lines (--json has them); of these:\n", lines.size()) : ":\n";
+  for (std::size_t i = begin; i < end; ++i) text += "  " + lines[i] + '\n';
+  return text;
 }
 
 report::Answer audit_answer(const AuditOutcome& outcome) {
