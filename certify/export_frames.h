@@ -3,15 +3,10 @@
 // Exports the frames of a run as files of one pattern, with any writer.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-
 #include <noli/export.h>
-#include <noli/mesh.h>
+#include "certify/frame_files.h"
 
 namespace noli {
-
-using FrameWriter = std::function<void(const Frame& frame, const std::filesystem::path& path)>;
 
 /// Like run_export(), but with files of any extension and without a series for ParaView.
 ExportOutcome export_frames(const ExportRequest& request, const FrameWriter& write);
