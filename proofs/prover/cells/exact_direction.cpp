@@ -2,6 +2,7 @@
 #include "proofs/prover/cells/exact_direction.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/formula.h"
 
@@ -55,30 +56,93 @@ IntegerVector across(const IntegerVector& w, const IntegerVector& u) {
   return {w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu};
 }
 
+/// A vector in doubles, times a power of two of its own: its longest component is in [1/2, 1), and each is off by less
+/// than 2^-51.
+using Rounded = std::array<double, 3>;
+
+Rounded in_doubles(const IntegerVector& v) {
+  Rounded result{};
+  std::array<long, 3> exponents{};
+  long greatest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = mpz_get_d_2exp(&exponents[k], v[k].get());
+    if (result[k] != 0) greatest = std::max(greatest, exponents[k]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = std::ldexp(result[k], static_cast<int>(std::max(exponents[k] - greatest, -2000L)));
+  }
+  return result;
+}
+
+double dot(const Rounded& a, const Rounded& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Rules out directions before exact arithmetic looks at them. Of the integers, which have hundreds of bits, it takes
+/// the differences exactly, and rounds only then: all components are at most 1, so the terms of the few sums and
+/// products below are at most 18, and their errors add up to less than 2^-43.
+class RoundedSearch {
+ public:
+  explicit RoundedSearch(const std::vector<IntegerVector>& differences) {
+    for (const IntegerVector& w : differences) w_.push_back(in_doubles(w));
+  }
+
+  /// Whether the exact direction, a positive multiple of n up to rounding, has a difference behind it for certain.
+  bool fails(const Rounded& n) const {
+    return std::any_of(w_.begin(), w_.end(), [&n](const Rounded& w) { return dot(n, w) < -0x1p-40; });
+  }
+
+  bool point_fails(std::size_t i) const { return fails(w_[i]); }
+
+  /// across() of point i and u.
+  bool line_fails(std::size_t i, const Rounded& u) const {
+    const Rounded& w = w_[i];
+    const double uu = dot(u, u), wu = dot(w, u);
+    return fails({w[0] * uu - u[0] * wu, w[1] * uu - u[1] * wu, w[2] * uu - u[2] * wu});
+  }
+
+ private:
+  std::vector<Rounded> w_;
+};
+
+Rounded cross(const Rounded& u, const Rounded& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Rounded negative(const Rounded& n) { return {-n[0], -n[1], -n[2]}; }
+
 }  // namespace
 
 std::optional<IntegerVector> exact_direction(const std::vector<IntegerVector>& differences, const Integer& least2) {
   using formula::operator-;
   const auto& d = differences;
   const Question question{d, least2};
+  const RoundedSearch rounded_search(d);
   std::optional<IntegerVector> found;
   const auto take = [&](const IntegerVector& n) {
     if (separates(n, question)) found = shortened(n, question);
     return found.has_value();
   };
-  for (const IntegerVector& w : d) {
-    if (take(w)) return found;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!rounded_search.point_fails(i) && take(d[i])) return found;
   }
+  // u[i (i - 1) / 2 + j], j < i: from point i to point j.
+  std::vector<Rounded> u;
   for (std::size_t i = 0; i < d.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (take(across(d[i], d[j] - d[i]))) return found;
+      const IntegerVector along = d[j] - d[i];
+      u.push_back(in_doubles(along));
+      if (!rounded_search.line_fails(i, u.back()) && take(across(d[i], along))) return found;
     }
   }
   for (std::size_t i = 0; i < d.size(); ++i) {
+    const Rounded* const from = u.data() + (i > 0 ? i * (i - 1) / 2 : 0);
     for (std::size_t j = 0; j < i; ++j) {
       for (std::size_t k = 0; k < j; ++k) {
-        const IntegerVector n = formula::cross(d[j] - d[i], d[k] - d[i]);
-        if (take(n) || take({-n[0], -n[1], -n[2]})) return found;
+        const Rounded n = cross(from[j], from[k]);
+        const bool forward = !rounded_search.fails(n), backward = !rounded_search.fails(negative(n));
+        if (!forward && !backward) continue;
+        const IntegerVector exact = formula::cross(d[j] - d[i], d[k] - d[i]);
+        if (forward && take(exact)) return found;
+        if (backward && take({-exact[0], -exact[1], -exact[2]})) return found;
       }
     }
   }
