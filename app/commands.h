@@ -22,6 +22,7 @@ Command add_check(CLI::App& app);
 Command add_ccd(CLI::App& app);
 Command add_simulate(CLI::App& app);
 Command add_explain(CLI::App& app);
+Command add_repair(CLI::App& app);
 Command add_export(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_report(CLI::App& app);

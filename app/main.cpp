@@ -77,7 +77,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.set_version_flag("-V,--version", version_and_parts,
                        "Print version, commit, libraries, rounding self-test, and parts");
   std::vector<Command> commands = {
-      add_verify(app), add_check(app),  add_simulate(app), add_explain(app),
+      add_verify(app), add_check(app),  add_simulate(app), add_explain(app), add_repair(app),
       add_export(app), add_report(app), add_info(app),     add_ccd(app),
   };
   std::ranges::move(add_audits(app), std::back_inserter(commands));

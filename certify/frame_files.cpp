@@ -62,6 +62,14 @@ FrameFiles::FrameFiles(const std::string& pattern, bool force) : pattern_(parse_
   make_writable_folder(pattern_.folder(), "-o");
 }
 
+bool FrameFiles::may_be(const std::filesystem::path& file) const {
+  std::error_code error;
+  const std::filesystem::path there = std::filesystem::canonical(file, error);
+  if (error || !pattern_.number(folder() / there.filename())) return false;
+  const std::filesystem::path mine = folder().empty() ? "." : folder();
+  return std::filesystem::equivalent(there.parent_path(), mine, error);
+}
+
 void FrameFiles::find_earlier(const std::string& pattern, bool force) {
   const std::filesystem::path folder = pattern_.folder();
   std::error_code error;

@@ -47,6 +47,8 @@ class FrameFiles {
   std::uint64_t count() const { return times_.size(); }
   std::filesystem::path file(std::uint64_t i) const { return pattern_.file(i); }
   std::filesystem::path folder() const { return pattern_.folder(); }
+  /// Whether a file that is there is one of these by name.
+  bool may_be(const std::filesystem::path& file) const;
   /// The ending of the names: ".ply".
   std::string ending() const { return std::filesystem::path(pattern_.after).extension().string(); }
   const std::vector<double>& times() const { return times_; }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <noli/errors.h>
+#include <noli/repair.h>
+#include "app/commands.h"
+#include "app/help.h"
+#include "app/notes.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/process.h"
+#include "app/progress.h"
+#include "report/repair_report.h"
+#include "trajectory/formats/frame_names.h"
+
+namespace noli::app {
+namespace {
+
+constexpr const char* repair_footer =
+    "Writes another motion near the given one, in which nothing touches. A step that touches nothing stays as it is; "
+    "in "
+    "any other, the vertices are masses that contact alone stops. Where straight lines between the frames would still "
+    "touch, frames are inserted: times.csv says which is when. Everything that is written has been decided exactly, "
+    "and the last line is what noli verify says of it:\n"
+    "  proved      the checker accepted the proof: nothing touches            exit 0\n"
+    "  no_contact  decided exactly, not checked (--no-check)                  exit 0\n"
+    "  cannot_be   the first frame touches, or what is fixed leaves no way    exit 1\n"
+    "  undecided   a limit was reached, or no way was found                   exit 2\n"
+    "Examples:\n"
+    "  noli repair 'cloth_*.obj' -o mended/cloth_%03d.obj\n"
+    "  noli repair frames -o mended/%04d.ply --proof mended.noli\n"
+    "  noli repair start.obj target.obj -o out/%03d.obj --fixed-first 835    these move as given\n";
+
+struct RepairArguments {
+  RepairRequest request;
+  std::string time_limit;
+  OutputOptions results;
+};
+
+ExitCode exit_code(const RepairOutcome& outcome) {
+  const std::string_view verdict = report::repair_verdict(outcome);
+  if (verdict == "cannot_be") return ExitCode::refuted;
+  return verdict == "undecided" ? ExitCode::undecided : ExitCode::holds;
+}
+
+ExitCode run(RepairArguments& arguments) {
+  RepairRequest& request = arguments.request;
+  request.deadline = begin_work(arguments.time_limit);
+  auto inputs = files_named(request.frames);
+  request.frames = named_frames(std::move(request.frames));
+  inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
+  if (request.ignore) inputs.push_back(*request.ignore);
+  std::vector<OutputFile> outputs;
+  if (request.proof) outputs.push_back({"--proof", *request.proof, true});
+  const Output output(arguments.results, inputs, outputs);
+  request.force = arguments.results.force;
+  request.stop = &interrupted();
+  std::optional<ProgressBars> bars(std::in_place);
+  request.progress = [&](std::string_view work, double share) { bars->show(work, share, ""); };
+  const RepairOutcome outcome = run_repair(request);
+  bars.reset();
+  output.write("repair", report::repair_answer(request, outcome), report::repair_json(request, outcome));
+  return exit_code(outcome);
+}
+
+}  // namespace
+
+Command add_repair(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("repair", "Write a motion near this one in which nothing touches");
+  command->footer(repair_footer);
+  const auto arguments = std::make_shared<RepairArguments>();
+  RepairRequest& request = arguments->request;
+  command->add_option("frames", request.frames, "Frames in the order of time: files, a folder, a pattern")
+      ->required()
+      ->type_name("FRAMES");
+  command->add_option("-o,--output", request.pattern, "Names of the new frames: out/%04d.ply, .obj or .vtu")
+      ->required()
+      ->type_name("PATTERN");
+  command->add_option("--fixed-first", request.fixed_first, "The first N vertices move as given")
+      ->check(whole_number(0, 1'000'000'000))
+      ->type_name("N");
+  add_order_option(*command, request.order);
+  command
+      ->add_option("--thickness", request.thickness,
+                   "The gap to aim at; default: a quarter of the least height of cells")
+      ->check(is_positive())
+      ->type_name("DISTANCE");
+  command->add_option("--proof", request.proof, "Write the proof about the new frames to this file")->type_name("OUT");
+  command->add_flag_callback(
+      "--no-check", [&request] { request.check = false; },
+      "Skip the checker: the verdict is then no_contact, not proved");
+  add_output_options(*command, arguments->results);
+  add_threads_option(*command, request.threads);
+  add_time_limit_option(*command, arguments->time_limit);
+  command->add_option("--restitution", request.restitution, "Share of the energy of an approach that comes back")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str()
+      ->type_name("E")
+      ->group(group::question);
+  command->add_option("--friction", request.friction, "Coulomb's coefficient")
+      ->check(is_not_negative())
+      ->capture_default_str()
+      ->type_name("MU")
+      ->group(group::question);
+  command
+      ->add_option("--ignore", request.ignore,
+                   "Groups of vertices that may pass through each other, a JSON file as for noli verify")
+      ->type_name("GROUPS.json")
+      ->group(group::question);
+  command
+      ->add_flag("--points", request.points,
+                 "Treat vertices without a face or edge as particles; else they are ignored")
+      ->group(group::question);
+  command
+      ->add_option("--dimension", request.dimension,
+                   "2 ignores z. Default: 2 if all z of the first two frames are equal, else 3")
+      ->check(is_dimension())
+      ->type_name("2|3")
+      ->group(group::question);
+  add_polygons_option(*command, request.reading.polygons);
+  add_keys_option(*command, request.reading.keys);
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace noli::app

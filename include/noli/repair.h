@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Repairs a sequence of frames that touches: gives another one, near it, in which nothing does.
+//
+//   noli::RepairRequest request;
+//   request.frames = {"cloth_1.ply", "cloth_2.ply"};
+//   request.pattern = "out/cloth_%03d.ply";
+//   const noli::RepairOutcome outcome = noli::run_repair(request);
+//   if (outcome.end == noli::RepairEnd::done) ...  // outcome.verified is what noli/verify.h says of the new frames
+//
+// Notation
+//   y_k     the given frame k
+//   x_k     the repaired one. x_0 = y_0; each step goes from x_k towards y_(k+1)
+//   step    takes one unit of time; steps count from 1
+//
+// A step whose straight lines touch nothing ends in y_(k+1). In any other step the vertices are masses with the velocities
+// y_(k+1) - x_k, on which contact alone acts, by the method of Harmon et al., "Asynchronous Contact Mechanics" (2009):
+// a velocity filter. A vertex that nothing strikes ends in y_(k+1), bit for bit. Where the straight lines from x_k to
+// x_(k+1) touch although the motion in between does not, frames are inserted.
+//
+// Thickness, stiffness and step of the layers of contact decide how far vertices are moved and how long that takes,
+// never whether the answer is true: every step that is written has been decided in exact arithmetic.
+//
+// Units: those of the files; times in steps. Errors: as run_repair says. Thread safety: any number of repairs may run at
+// once, each with its own pattern and stop; nothing is printed.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <noli/findings.h>
+#include <noli/frames.h>
+#include <noli/verify.h>
+
+namespace noli {
+
+struct RepairRequest {
+  std::vector<std::filesystem::path> frames;  ///< files in the order of time
+  FrameOrder order = FrameOrder::checked;     ///< as in VerifyRequest
+  FrameReading reading;                       ///< without bodies
+  std::string pattern;  ///< of the new frames, with one %d or %0Nd; its ending names the format: .ply, .obj, .vtu
+  bool force = false;   ///< existing files of that pattern may be replaced or removed
+  std::optional<int> dimension;                 ///< as in VerifyRequest
+  int threads = 0;                              ///< of what decides; 0: all there are
+  bool points = false;                          ///< vertices that no cell refers to are particles
+  std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
+  std::uint64_t fixed_first = 0;                ///< so many vertices, from the first, move as given
+  std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
+  double restitution = 0.1;                     ///< share of the energy of an approach that comes back, 0 to 1
+  double friction = 0;                          ///< Coulomb's coefficient
+  std::optional<std::filesystem::path> proof;   ///< where the proof about the new frames goes
+  bool check = true;                            ///< the checker looks at it
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  const std::atomic<bool>* stop = nullptr;  ///< polled
+  /// Called with what is done, and the share of it in [0, 1]: "repair", then what verify tells. Calls do not overlap.
+  std::function<void(std::string_view work, double share)> progress;
+};
+
+enum class RepairEnd : std::uint8_t {
+  done,           ///< all frames are written
+  start_touches,  ///< something meets in the first frame
+  blocked,        ///< vertices that move as given pass through each other
+  undecided,      ///< no way was found for a step: `obstacle` says which features came too near for numbers to go on
+  interrupted,
+  out_of_time
+};
+
+/// The name used in JSON.
+const char* name(RepairEnd end);
+
+/// A step that was changed, or could not be.
+struct RepairedStep {
+  std::size_t step = 0;         ///< from 1
+  std::size_t inserted = 0;     ///< frames between its first and its last
+  std::uint64_t moved = 0;      ///< vertices that do not end where they were given
+  double largest = 0, rms = 0;  ///< distance of these from where they were given
+  VertexId vertex = 0;          ///< the one with the largest
+  std::uint32_t deepest = 0;    ///< the deepest layer that acted
+};
+
+/// Features that cannot be kept apart, and when.
+struct RepairObstacle {
+  std::size_t step = 0;  ///< from 1; 0: the first frame
+  double time = 0;       ///< in [0, 1] of the step
+  FeaturePair kind = FeaturePair::vertex_face;
+  std::array<VertexId, 4> vertices{};  ///< as in FeatureContact
+  bool cells = false;                  ///< vertices[0] and [1] are cells, which intersect in the first frame
+};
+
+struct RepairOutcome {
+  RepairEnd end = RepairEnd::done;
+  int dimension = 3;
+  std::size_t vertices = 0, cells = 0, frames_given = 0, steps_total = 0;
+  std::size_t steps = 0;              ///< repaired or passed on
+  std::vector<RepairedStep> changed;  ///< in the order of time
+  std::size_t frames = 0;             ///< written
+  std::size_t copied = 0;             ///< of these, byte for byte the given files
+  double thickness = 0;               ///< of the first layer, where the mesh is coarse
+  double mean_edge = 0;               ///< of the first frame: a scale for distances
+  std::optional<RepairObstacle> obstacle;
+  std::filesystem::path times;            ///< the table of frames and their times
+  std::uint64_t removed = 0;              ///< files of an earlier repair that were not replaced
+  std::optional<VerifyOutcome> verified;  ///< what `noli verify` says of the new frames, if all are written
+  std::vector<std::string> notes;
+  double seconds = 0;  ///< wall clock
+
+  std::size_t inserted() const;
+};
+
+/// Throws InputError, UsageError (the pattern; options that do not go together), WriteError and std::system_error (the
+/// disk), std::bad_alloc.
+RepairOutcome run_repair(const RepairRequest& request);
+
+}  // namespace noli

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/repair_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <noli/errors.h>
+#include "certify/body_names.h"
+#include "certify/contact_report.h"
+#include "trajectory/text.h"
+
+namespace noli::report {
+namespace {
+
+const RepairedStep* largest_change(const RepairOutcome& outcome) {
+  const auto found = std::ranges::max_element(outcome.changed, {}, &RepairedStep::largest);
+  return found == outcome.changed.end() ? nullptr : &*found;
+}
+
+Json changed_json(const RepairOutcome& outcome) {
+  Json list = Json::array();
+  for (const RepairedStep& step : outcome.changed) {
+    list.push_back({{"step", step.step},
+                    {"inserted", step.inserted},
+                    {"moved", step.moved},
+                    {"largest", step.largest},
+                    {"rms", step.rms},
+                    {"vertex", step.vertex},
+                    {"deepest_layer", step.deepest}});
+  }
+  return list;
+}
+
+Json obstacle_json(const RepairOutcome& outcome) {
+  if (!outcome.obstacle) return nullptr;
+  const RepairObstacle& obstacle = *outcome.obstacle;
+  Json json = {{"step", obstacle.step}, {"time", obstacle.time}};
+  if (obstacle.cells) {
+    json["cells"] = {obstacle.vertices[0], obstacle.vertices[1]};
+  } else {
+    json.update(contact_json(FeatureContact{obstacle.kind, obstacle.vertices, {}}));
+  }
+  return json;
+}
+
+std::string pair_of(const RepairObstacle& obstacle) {
+  if (obstacle.cells) return fmt::format("cell {} × cell {}", obstacle.vertices[0], obstacle.vertices[1]);
+  return pair_in_short(FeatureContact{obstacle.kind, obstacle.vertices, {}});
+}
+
+/// "0.012 (0.4 mean edges)".
+std::string distance_text(double distance, const RepairOutcome& outcome) {
+  if (!(outcome.mean_edge > 0)) return digits4(distance);
+  return fmt::format("{} ({:.2g} mean edges)", digits4(distance), distance / outcome.mean_edge);
+}
+
+std::string changes_text(const RepairOutcome& outcome) {
+  constexpr std::size_t most = 12;
+  if (outcome.changed.empty()) return "No step touches; all frames are as given.\n";
+  std::string text = fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", "step", "vertices", "largest", "rms",
+                                 "inserted", "deepest layer");
+  for (std::size_t i = 0; i < std::min(most, outcome.changed.size()); ++i) {
+    const RepairedStep& step = outcome.changed[i];
+    text += fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", step.step, step.moved, digits4(step.largest),
+                        digits4(step.rms), step.inserted, step.deepest);
+  }
+  if (outcome.changed.size() > most) text += fmt::format("  ... and {} more (--json)\n", outcome.changed.size() - most);
+  const RepairedStep& most_changed = *largest_change(outcome);
+  return text + fmt::format("Moved most: vertex {} in step {}, by {}.\n", most_changed.vertex, most_changed.step,
+                            distance_text(most_changed.largest, outcome));
+}
+
+std::string place_of(const RepairOutcome& outcome) {
+  const auto at = [&outcome] {
+    const RepairObstacle& obstacle = *outcome.obstacle;
+    return obstacle.step == 0
+               ? "first frame  " + pair_of(obstacle)
+               : fmt::format("step {}  t = {}  {}", obstacle.step, digits4(obstacle.time), pair_of(obstacle));
+  };
+  const std::string so_far = fmt::format("{} of {} steps repaired", outcome.steps, outcome.steps_total);
+  switch (outcome.end) {
+    case RepairEnd::done:
+      return fmt::format(
+          "{} frames ({} inserted, {} as given), {} of {} steps changed: nothing touches{}", outcome.frames,
+          outcome.inserted(), outcome.copied, outcome.changed.size(), outcome.steps_total,
+          outcome.verified->checker
+              ? fmt::format(" (accepted by {} {})", outcome.verified->checker->name, outcome.verified->checker->version)
+              : " (decided exactly, not checked)");
+    case RepairEnd::start_touches: return at() + ": they touch from the beginning";
+    case RepairEnd::blocked: return at() + ": both move as given";
+    case RepairEnd::undecided:
+      return so_far + "; " + (outcome.obstacle ? at() + " is too near for numbers to go on" : "no way was found");
+    case RepairEnd::interrupted: return so_far + " (interrupted)";
+    case RepairEnd::out_of_time: return so_far + " (time limit)";
+  }
+  return "";
+}
+
+std::string next_step(const RepairRequest& request, const RepairOutcome& outcome) {
+  switch (outcome.end) {
+    case RepairEnd::done: return "";
+    case RepairEnd::start_touches:
+      return "separate them in the first frame, or leave them out with --ignore: they may then pass through each "
+             "other.";
+    case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
+    case RepairEnd::undecided: return "try another --thickness or --restitution, or let fewer vertices be fixed.";
+    case RepairEnd::interrupted:
+    case RepairEnd::out_of_time: return "give it more time: the frames up to there are written.";
+  }
+  return "";
+}
+
+}  // namespace
+
+const char* repair_verdict(const RepairOutcome& outcome) {
+  switch (outcome.end) {
+    case RepairEnd::start_touches:
+    case RepairEnd::blocked: return "cannot_be";
+    case RepairEnd::done: return name(outcome.verified->verdict).data();
+    default: return "undecided";
+  }
+}
+
+Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
+  Json json = {{"verdict", repair_verdict(outcome)}, {"end", name(outcome.end)}};
+  json["pattern"] = request.pattern;
+  json["times"] = outcome.times.string();
+  json["dimension"] = outcome.dimension;
+  json["vertices"] = outcome.vertices;
+  json["cells"] = outcome.cells;
+  json["fixed"] = request.fixed_first;
+  json["thickness"] = outcome.thickness;
+  json["restitution"] = request.restitution;
+  json["friction"] = request.friction;
+  json["mean_edge"] = outcome.mean_edge;
+  json["steps"] = outcome.steps;
+  json["steps_total"] = outcome.steps_total;
+  json["frames"] = outcome.frames;
+  json["inserted"] = outcome.inserted();
+  json["copied"] = outcome.copied;
+  json["changed"] = changed_json(outcome);
+  json["obstacle"] = obstacle_json(outcome);
+  const bool checked = outcome.verified && outcome.verified->checker;
+  json["checker"] = checked ? Json({{"name", outcome.verified->checker->name},
+                                    {"version", outcome.verified->checker->version},
+                                    {"commit", outcome.verified->checker->commit}})
+                            : Json(nullptr);
+  json["proof"] = request.proof ? Json(request.proof->string()) : Json(nullptr);
+  json["notes"] = outcome.notes;
+  json["timing"] = {{"seconds", outcome.seconds}};
+  return json;
+}
+
+Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome) {
+  Answer answer(repair_json(request, outcome),
+                {"end", "steps", "steps_total", "frames", "inserted", "copied", "changed", "thickness"});
+  for (const std::string& note : outcome.notes) answer.text += fmt::format("Note: {}.\n", on_one_line(note));
+  if (outcome.end != RepairEnd::start_touches) {
+    answer.text += changes_text(outcome);
+    answer.text += fmt::format("Aimed at: a gap of {}. Times of the frames: {}\n",
+                               distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
+  }
+  answer.next = next_step(request, outcome);
+  answer.place = place_of(outcome);
+  return answer;
+}
+
+}  // namespace noli::report

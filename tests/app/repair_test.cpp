@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests `noli repair`: what is free stays as it is, what touches is moved until nothing does, what cannot be is told.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tests/app/audits/libraries.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "trajectory/formats/frames.h"
+
+namespace noli::app_tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Repair : public testing::Test {
+ protected:
+  /// The upper triangle of two_triangles() at these heights, a frame for each.
+  Words falling(const std::vector<double>& heights) const {
+    Words frames;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+      frames.push_back(folder.write(fmt::format("in_{}.ply", k), two_triangles(heights[k])));
+    }
+    return frames;
+  }
+  std::string pattern() const { return folder.path("out/%03d.ply"); }
+  std::string out(std::size_t k) const { return folder.path(fmt::format("out/{:03}.ply", k)); }
+  Words repair(const Words& frames, const Words& more = {}) const {
+    Words words = {"repair", "-o", pattern()};
+    words.insert(words.end(), frames.begin(), frames.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  Process verify_out() const { return run_noli({"verify", folder.path("out")}); }
+  static std::vector<Position> positions(const std::string& file) { return read_frame(file).positions; }
+
+  Folder folder;
+};
+
+TEST_F(Repair, WhatIsFreeStaysByteForByte) {
+  const Words frames = falling({3, 2, 1, 0.5});
+  const Json json = json_of(repair(frames), 0);
+  EXPECT_EQ(json["verdict"], "proved");
+  EXPECT_EQ(json["copied"], 4);
+  EXPECT_EQ(json["inserted"], 0);
+  EXPECT_TRUE(json["changed"].empty());
+  for (std::size_t k = 0; k < frames.size(); ++k) EXPECT_EQ(read_text(out(k)), read_text(frames[k])) << k;
+}
+
+TEST_F(Repair, WhatTouchesIsProvedAfterwards) {
+  const Words frames = falling({1, 0.5, -0.5, -0.25, 1});
+  EXPECT_EQ(run_noli(Words{"verify"} + frames).exit_code, 1);
+  const Process process = run_noli(repair(frames));
+  EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
+  EXPECT_TRUE(process.verdict_line().starts_with("PROVED  ")) << process.out;
+  const Process again = verify_out();
+  EXPECT_EQ(again.exit_code, 0) << again.out;
+  EXPECT_TRUE(again.verdict_line().starts_with("PROVED  ")) << again.out;
+  // The free frames are as given, and what comes back is followed again.
+  EXPECT_EQ(read_text(out(0)), read_text(frames[0]));
+  EXPECT_EQ(positions(out(4)), positions(frames[4]));
+  // Where it would have gone through, it stays above, and not far.
+  for (const VertexId v : {3, 4, 5}) {
+    const double above = positions(out(2))[v][2] - positions(out(2))[0][2];
+    EXPECT_GT(above, 0);
+    EXPECT_LT(above, 0.6);
+  }
+}
+
+TEST_F(Repair, FixedVerticesMoveAsGiven) {
+  const Words frames = falling({1, -0.5});
+  const Json json = json_of(repair(frames, {"--fixed-first", "3"}), 0);
+  EXPECT_EQ(json["changed"].size(), 1u);
+  const auto given = positions(frames[1]), repaired = positions(out(json["frames"].get<std::size_t>() - 1));
+  for (VertexId v = 0; v < 3; ++v) EXPECT_EQ(repaired[v], given[v]) << v;
+  for (VertexId v = 3; v < 6; ++v) EXPECT_GT(repaired[v][2], 0) << v;
+}
+
+TEST_F(Repair, AStartThatTouchesCannotBe) {
+  const Process process = run_noli(repair(falling({0, 1})));
+  EXPECT_EQ(process.exit_code, 1) << process.out << process.err;
+  EXPECT_TRUE(process.verdict_line().starts_with("CANNOT BE  first frame  ")) << process.out;
+  EXPECT_NE(process.out.find("--ignore"), std::string::npos);
+  const std::string pierced = folder.write("pierced.ply", sail_through_deck());
+  const Json json = json_of({"repair", pierced, pierced, "-o", folder.path("other/%d.ply"), "--order", "given"}, 1);
+  EXPECT_EQ(json["end"], "start_touches");
+  EXPECT_EQ(json["obstacle"]["cells"], Json::parse("[0, 1]"));
+}
+
+TEST_F(Repair, WhatIsFixedAndPassesThroughEachOtherCannotBe) {
+  const Words frames = falling({1, 0.5, -0.5});
+  const Json json = json_of(repair(frames, {"--fixed-first", "6"}), 1);
+  EXPECT_EQ(json["end"], "blocked");
+  EXPECT_EQ(json["obstacle"]["step"], 2);
+  EXPECT_EQ(json["obstacle"]["time"], 0.5);
+  EXPECT_EQ(json["steps"], 1);
+  // What was repaired so far is there.
+  EXPECT_EQ(read_text(out(1)), read_text(frames[1]));
+  EXPECT_FALSE(fs::exists(out(2)));
+}
+
+TEST_F(Repair, OutputsReplaceNothingThatIsReadOrThere) {
+  const Words frames = falling({1, -0.5});
+  Words words = {"repair", frames[0], frames[1], "-o", folder.path("in_%d.ply"), "--force"};
+  const Process over = run_noli(words);
+  EXPECT_EQ(over.exit_code, 3);
+  EXPECT_NE(over.err.find("is read; choose another folder or name"), std::string::npos) << over.err;
+  EXPECT_EQ(run_noli(repair(frames)).exit_code, 0);
+  const Process again = run_noli(repair(frames));
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_NE(again.err.find("exists already"), std::string::npos) << again.err;
+  EXPECT_EQ(run_noli(repair(frames, {"--force"})).exit_code, 0);
+}
+
+TEST_F(Repair, ThreadsChangeNoByte) {
+  const Words frames = falling({1, -0.5, -1, 0.25});
+  std::string first;
+  for (const char* threads : {"1", "2", "5"}) {
+    ASSERT_EQ(run_noli(repair(frames, {"--threads", threads, "--force"})).exit_code, 0);
+    std::string bytes;
+    for (const auto& entry : fs::directory_iterator(folder.path("out"))) {
+      bytes += entry.path().filename().string() + read_text(entry.path());
+    }
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes, first) << threads;
+  }
+}
+
+TEST_F(Repair, InThePlaneThirdCoordinatesStay) {
+  const auto curve = [&](const char* name, double y) {
+    return folder.write(name, fmt::format("v 0 0 7\nv 2 0 7\nv 0.5 {} 7\nv 1.5 {} 7\nl 1 2\nl 3 4\n", y, y));
+  };
+  const Words frames = {curve("c_0.obj", 1), curve("c_1.obj", -1)};
+  const Json json = json_of(repair(frames), 0);
+  EXPECT_EQ(json["dimension"], 2);
+  for (std::size_t k = 0; k < json["frames"].get<std::size_t>(); ++k) {
+    for (const Position& x : positions(out(k))) EXPECT_EQ(x[2], 7);
+  }
+  EXPECT_EQ(verify_out().exit_code, 0);
+}
+
+TEST_F(Repair, ATimeLimitKeepsWhatIsWritten) {
+  const Words frames = falling({1, -0.5});
+  const Process process = run_noli(repair(frames, {"--time-limit", "1ns"}));
+  EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+}
+
+TEST_F(Repair, TheTableSaysWhichFrameIsWhen) {
+  const Words frames = falling({1, -0.5, 1});
+  const Json json = json_of(repair(frames), 0);
+  const std::string table = read_text(json["times"].get<std::string>());
+  EXPECT_TRUE(table.starts_with("file,time,given\n000.ply,0,in_0.ply\n")) << table;
+  EXPECT_NE(table.find(",2,in_2.ply\n"), std::string::npos) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), json["frames"].get<int>() + 1);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
