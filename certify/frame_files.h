@@ -50,7 +50,7 @@ class FrameFiles {
   /// Whether a file that is there is one of these by name.
   bool may_be(const std::filesystem::path& file) const;
   /// The ending of the names: ".ply".
-  std::string ending() const { return std::filesystem::path(pattern_.after).extension().string(); }
+  std::string ending() const { return file(0).extension().string(); }
   const std::vector<double>& times() const { return times_; }
   std::uint64_t removed() const { return removed_; }     ///< by finish()
   const std::string& series() const { return series_; }  ///< the file for ParaView that finish() wrote; empty: none

@@ -97,7 +97,7 @@ std::string place_of(const RepairOutcome& outcome) {
   return "";
 }
 
-std::string next_step(const RepairRequest& request, const RepairOutcome& outcome) {
+std::string what_to_try(const RepairOutcome& outcome) {
   switch (outcome.end) {
     case RepairEnd::done: return "";
     case RepairEnd::start_touches:
@@ -161,7 +161,7 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
     answer.text += fmt::format("Aimed at: a gap of {}. Times of the frames: {}\n",
                                distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
   }
-  answer.next = next_step(request, outcome);
+  answer.next = what_to_try(outcome);
   answer.place = place_of(outcome);
   return answer;
 }

@@ -94,7 +94,6 @@ class Repair {
       ++outcome_.steps;
       tell();
     } while (sequence_.next());
-    finish();
   }
 
   /// Whatever is written stays.
@@ -316,14 +315,21 @@ class Repair {
            request_.frames[k].extension() == files_.ending();
   }
 
+  static std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return cell + '"';
+  }
+
   /// Next to the frames: which file is which moment.
   void write_times() {
     std::string text = "file,time,given\n";
     for (std::uint64_t i = 0; i < files_.count(); ++i) {
       const double t = files_.times()[i];
       const bool whole = t == std::floor(t);
-      text += fmt::format("{},{},{}\n", files_.file(i).filename().string(), t,
-                          whole ? source_.name(static_cast<std::size_t>(t)) : "");
+      text += fmt::format("{},{},{}\n", csv_cell(files_.file(i).filename().string()), t,
+                          whole ? csv_cell(source_.name(static_cast<std::size_t>(t))) : "");
     }
     outcome_.times = files_.folder() / "times.csv";
     write_file(outcome_.times, text);
@@ -377,9 +383,11 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
     work();
   } catch (const Ended& ended) {
     outcome.end = ended.end;
-    work.finish();
-    return;
+  } catch (const Stopped& stopped) {  // while a frame was read
+    outcome.end = stopped.reason() == StopReason::out_of_time ? RepairEnd::out_of_time : RepairEnd::interrupted;
   }
+  work.finish();
+  if (outcome.end != RepairEnd::done) return;
   verify_all(request, work.written(), outcome);
 }
 

@@ -101,6 +101,8 @@ TEST_F(Schema, OfCheckAndClaim) {
   EXPECT_EQ(complaint("claim", bytes_of(claim)), "");
   EXPECT_NE(complaint("claim", "{}"), "");
   expect_valid("check", {"check", proof, a, b});
+  expect_valid("repair", {"repair", a, c, "-o", folder.path("mended/%d.ply")});
+  expect_valid("repair", {"repair", a, c, "-o", folder.path("blocked/%d.ply"), "--fixed-first", "6"});
   ASSERT_EQ(run_noli({"verify", a, c, "--force", "--proof", proof}).exit_code, 1);
   expect_valid("check", {"check", proof, a, c});
   const Process rejected = run_noli({"check", proof, a, b, "--json", "-"});

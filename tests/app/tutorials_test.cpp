@@ -22,6 +22,11 @@ TEST(Tutorials, Certify) {
   expect_tutorial("docs/certify.md", folder.path("."));
 }
 
+TEST(Tutorials, Mend) {
+  const Folder folder;
+  expect_tutorial("docs/mend.md", folder.path("."));
+}
+
 TEST(Tutorials, Fuzz) {
   const Folder folder;
   expect_tutorial("docs/fuzz.md", folder.path("."));

@@ -405,7 +405,7 @@ TEST_F(Simulate, WhatIsNotComparedIsPartOfTheStatement) {
   EXPECT_EQ(result["scripted_or_pinned"], Json::parse(R"(["a", "b"])"));
   const std::string headline = "Not compared: two cells of a and b whose vertices are all scripted or pinned.\n";
   const Process told = run_noli({"simulate", scene(json), "-o", run_path("told")});
-  EXPECT_NE(told.out.find("Nothing that is compared touches from 0 to 0.2 s. " + headline), std::string::npos)
+  EXPECT_NE(told.out.find("Nothing that is compared touches from 0 to 1 s. " + headline), std::string::npos)
       << told.out;
   const Process verified = run_noli({"verify", run_path("run")});
   EXPECT_NE(verified.out.find(": nothing that is compared touches; not compared: two cells of a and b "),
