@@ -280,6 +280,10 @@ TEST(Frames, OfABlockFile) {
   far.replace(0, 8, raw(std::numeric_limits<double>::infinity()));
   groups[2] = {{"FRAM", raw(1.0) + far}};
   EXPECT_REJECTED(of(groups), "finite");
+  Proof at_rest = proof;
+  at_rest.claim.source = 1;
+  const std::string rest = folder.write("rest", block_file("PROF", at_rest.groups()));
+  EXPECT_REJECTED(verdict(rest, {folder.write("none.frames", block_file("FRMS", {groups[0]}))}), "more frames");
   groups[0] = {{"MESH", raw(std::uint64_t{1} << 32) + raw(std::array<std::uint64_t, 3>{})}};
   EXPECT_REJECTED(of(groups), "more is announced here than is left");
   groups[0] = {{"MESH", raw(std::uint64_t{0}) + raw(std::array<std::uint64_t, 3>{})}};
