@@ -73,6 +73,7 @@ class StepFilter {
       const StepContact::Settings settings = contact_.settings(sizes, speeds_of(state_.v));
       const double length = std::min({1 - now, longest, most_firings * settings.least_step});
       const double next = length < 1 - now ? now + length : 1;
+      if (!(next > now)) return std::nullopt;  // so fast, or so near, that doubles know no time in between
       try {
         if (!run_phase(now, next, settings.contact, how, step)) return std::nullopt;
       } catch (const integrator::ContactLimit& limit) {
