@@ -5,6 +5,7 @@
 
 #include <noli/errors.h>
 #include <noli/repair.h>
+#include "app/bodies.h"
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/notes.h"
@@ -31,10 +32,12 @@ constexpr const char* repair_footer =
     "Examples:\n"
     "  noli repair 'cloth_*.obj' -o mended/cloth_%03d.obj\n"
     "  noli repair frames -o mended/%04d.ply --proof mended.noli\n"
-    "  noli repair start.obj target.obj -o out/%03d.obj --fixed-first 835    these move as given\n";
+    "  noli repair start.obj target.obj -o out/%03d.obj --fixed-first 835    these move as given\n"
+    "  noli repair --body shirt='shirt_*.obj' --body man='man_*.obj' --fixed man -o out/%03d.ply\n";
 
 struct RepairArguments {
   RepairRequest request;
+  BodyWords bodies;
   std::string time_limit;
   OutputOptions results;
 };
@@ -49,7 +52,16 @@ ExitCode run(RepairArguments& arguments) {
   RepairRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
   auto inputs = files_named(request.frames);
-  request.frames = named_frames(std::move(request.frames));
+  std::vector<std::string> notes;
+  if (arguments.bodies.any()) {
+    request.reading.bodies = bodies_of(arguments.bodies, request.order, notes);
+    request.frames = files_of(request.reading.bodies);
+  } else {
+    if (request.frames.empty()) {
+      throw UsageError("`noli repair` needs FRAMES or bodies (--body); see `noli repair --help`");
+    }
+    request.frames = named_frames(std::move(request.frames));
+  }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
   if (request.ignore) inputs.push_back(*request.ignore);
   std::vector<OutputFile> outputs;
@@ -59,8 +71,9 @@ ExitCode run(RepairArguments& arguments) {
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);
   request.progress = [&](std::string_view work, double share) { bars->show(work, share, ""); };
-  const RepairOutcome outcome = run_repair(request);
+  RepairOutcome outcome = run_repair(request);
   bars.reset();
+  outcome.notes.insert(outcome.notes.begin(), notes.begin(), notes.end());
   output.write("repair", report::repair_answer(request, outcome), report::repair_json(request, outcome));
   return exit_code(outcome);
 }
@@ -72,9 +85,13 @@ Command add_repair(CLI::App& app) {
   command->footer(repair_footer);
   const auto arguments = std::make_shared<RepairArguments>();
   RepairRequest& request = arguments->request;
-  command->add_option("frames", request.frames, "Frames in the order of time: files, a folder, a pattern")
-      ->required()
-      ->type_name("FRAMES");
+  CLI::Option* const frames =
+      command->add_option("frames", request.frames, "Frames in the order of time: files, a folder, a pattern")
+          ->type_name("FRAMES");
+  add_body_options(*command, arguments->bodies, frames);
+  command->add_option("--fixed", request.fixed_bodies, "Bodies that move as given, by name; obstacles always do")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   command->add_option("-o,--output", request.pattern, "Names of the new frames: out/%04d.ply, .obj or .vtu")
       ->required()
       ->type_name("PATTERN");

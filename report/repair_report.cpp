@@ -32,6 +32,21 @@ Json changed_json(const RepairOutcome& outcome) {
   return list;
 }
 
+Json bodies_json(const RepairOutcome& outcome) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < outcome.by_body.size(); ++i) {
+    const RepairedBody& moved = outcome.by_body[i];
+    const FrameBody& body = outcome.bodies[i];
+    list.push_back({{"name", body.name},
+                    {"first_vertex", body.first_vertex},
+                    {"vertices", body.vertices},
+                    {"moved", moved.moved},
+                    {"largest", moved.largest},
+                    {"rms", moved.rms}});
+  }
+  return list;
+}
+
 Json obstacle_json(const RepairOutcome& outcome) {
   if (!outcome.obstacle) return nullptr;
   const RepairObstacle& obstacle = *outcome.obstacle;
@@ -44,9 +59,10 @@ Json obstacle_json(const RepairOutcome& outcome) {
   return json;
 }
 
-std::string pair_of(const RepairObstacle& obstacle) {
+std::string pair_of(const RepairOutcome& outcome) {
+  const RepairObstacle& obstacle = *outcome.obstacle;
   if (obstacle.cells) return fmt::format("cell {} × cell {}", obstacle.vertices[0], obstacle.vertices[1]);
-  return pair_in_short(FeatureContact{obstacle.kind, obstacle.vertices, {}});
+  return names_of_frames(outcome.bodies).pair(obstacle.kind, obstacle.vertices, "×");
 }
 
 /// "0.012 (0.4 mean edges)".
@@ -66,8 +82,14 @@ std::string changes_text(const RepairOutcome& outcome) {
                         digits4(step.rms), step.inserted, step.deepest);
   }
   if (outcome.changed.size() > most) text += fmt::format("  ... and {} more (--json)\n", outcome.changed.size() - most);
+  for (const RepairedBody& body : outcome.by_body) {
+    if (body.moved == 0) continue;
+    text += fmt::format("{}: moved by {} at most, root mean square {}.\n", on_one_line(body.name),
+                        distance_text(body.largest, outcome), digits4(body.rms));
+  }
   const RepairedStep& most_changed = *largest_change(outcome);
-  return text + fmt::format("Moved most: vertex {} in step {}, by {}.\n", most_changed.vertex, most_changed.step,
+  const std::string vertex = on_one_line(names_of_frames(outcome.bodies).vertex(most_changed.vertex));
+  return text + fmt::format("Moved most: vertex {} in step {}, by {}.\n", vertex, most_changed.step,
                             distance_text(most_changed.largest, outcome));
 }
 
@@ -75,8 +97,8 @@ std::string place_of(const RepairOutcome& outcome) {
   const auto at = [&outcome] {
     const RepairObstacle& obstacle = *outcome.obstacle;
     return obstacle.step == 0
-               ? "first frame  " + pair_of(obstacle)
-               : fmt::format("step {}  t = {}  {}", obstacle.step, digits4(obstacle.time), pair_of(obstacle));
+               ? "first frame  " + pair_of(outcome)
+               : fmt::format("step {}  t = {}  {}", obstacle.step, digits4(obstacle.time), pair_of(outcome));
   };
   const std::string so_far = fmt::format("{} of {} steps repaired", outcome.steps, outcome.steps_total);
   switch (outcome.end) {
@@ -129,7 +151,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
-  json["fixed"] = request.fixed_first;
+  json["fixed"] = outcome.fixed;
   json["thickness"] = outcome.thickness;
   json["restitution"] = request.restitution;
   json["friction"] = request.friction;
@@ -140,6 +162,8 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["inserted"] = outcome.inserted();
   json["copied"] = outcome.copied;
   json["changed"] = changed_json(outcome);
+  json["bodies"] = bodies_json(outcome);
+  json["momentum_into_fixed"] = outcome.momentum_into_fixed;
   json["obstacle"] = obstacle_json(outcome);
   const bool checked = outcome.verified && outcome.verified->checker;
   json["checker"] = checked ? Json({{"name", outcome.verified->checker->name},

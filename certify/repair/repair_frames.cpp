@@ -10,19 +10,21 @@
 
 #include <noli/errors.h>
 #include <noli/sequence.h>
-#include "certify/frame_files.h"
 #include "certify/groups.h"
+#include "certify/json.h"
+#include "certify/process/hdf5_frames.h"
+#include "certify/process/scratch_folder.h"
 #include "certify/proofs/proof_route.h"
+#include "certify/repair/changes.h"
+#include "certify/repair/repaired_frames.h"
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
 #include "certify/simulate/retries.h"
 #include "certify/stopwatch.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
-#include "trajectory/formats/open_frames.h"
 #include "trajectory/stop.h"
 #include "trajectory/write_file.h"
 
@@ -41,53 +43,84 @@ bool in_one_plane(std::span<const Position> a, std::span<const Position> b) {
   return all_z_equal(a) && all_z_equal(b) && (a.empty() || a[0][2] == b[0][2]);
 }
 
+/// By vertex, 1 if it moves as given. Throws UsageError.
+std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size_t count,
+                                         const std::vector<FrameBody>& bodies) {
+  std::vector<std::uint8_t> fixed(count, 0);
+  if (request.fixed_first > count) {
+    throw UsageError(fmt::format("--fixed-first {}: the frames have {} vertices", request.fixed_first, count));
+  }
+  std::fill_n(fixed.begin(), request.fixed_first, std::uint8_t{1});
+  for (const std::string& name : request.fixed_bodies) {
+    if (std::ranges::find(bodies, name, &FrameBody::name) == bodies.end()) {
+      throw UsageError("--fixed " + name + ": there is no such body; expected the name of one (--body NAME=FRAMES)");
+    }
+  }
+  for (const FrameBody& body : bodies) {
+    const bool named = std::ranges::find(request.fixed_bodies, body.name) != request.fixed_bodies.end();
+    if (!body.still && !named) continue;
+    const auto begin = fixed.begin() + static_cast<std::ptrdiff_t>(body.first_vertex);
+    std::fill_n(begin, body.vertices, std::uint8_t{1});
+  }
+  return fixed;
+}
+
+/// The cells that move as given.
+Mesh fixed_cells(const Mesh& mesh, std::span<const std::uint8_t> fixed) {
+  Mesh part;
+  part.vertex_count = mesh.vertex_count;
+  const auto is_fixed = [&](VertexId v) { return fixed[v] != 0; };
+  const auto take = [&](const auto& cells, auto& into) {
+    for (const auto& cell : cells) {
+      if (std::ranges::all_of(cell, is_fixed)) into.push_back(cell);
+    }
+  };
+  take(mesh.faces, part.faces);
+  take(mesh.edges, part.edges);
+  std::ranges::copy_if(mesh.points, std::back_inserter(part.points), is_fixed);
+  return part;
+}
+
 template <int Dim>
 class Repair {
  public:
+  /// Precondition: the sequence is at its first step.
   Repair(const RepairRequest& request, FrameSource& source, FrameSequence& sequence, RepairOutcome& outcome)
       : request_(request),
-        source_(source),
         sequence_(sequence),
         outcome_(outcome),
-        files_(request.pattern, request.force),
-        write_(frame_writer_of(request.pattern)),
+        frames_(request, source),
         mesh_(sequence.mesh()),
-        stop_([this] { return stopped(); }) {
-    for (const auto& frame : request.frames) {
-      if (!files_.may_be(frame)) continue;
-      throw UsageError("-o " + request.pattern + ": " + frame.string() + " is read; choose another folder or name");
-    }
+        fixed_(fixed_vertices(request, mesh_.vertex_count, source.bodies())),
+        stop_([this] { return stopped(); }),
+        changes_(source.bodies()),
+        x_(sequence.x_t0().begin(), sequence.x_t0().end()) {
     if (request.points) {
       const auto loose = unreferenced_vertices(mesh_);
       mesh_.points.insert(mesh_.points.end(), loose.begin(), loose.end());
     }
-    fixed_.assign(mesh_.vertex_count, 0);
-    if (request.fixed_first > mesh_.vertex_count) {
-      throw UsageError(
-          fmt::format("--fixed-first {}: the frames have {} vertices", request.fixed_first, mesh_.vertex_count));
+    if (request.ignore) {
+      groups_ = read_groups(*request.ignore, mesh_.vertex_count, names_of_frames(source.bodies()));
+      require_whole_cells(*request.ignore, *groups_, mesh_);
     }
-    std::fill_n(fixed_.begin(), request.fixed_first, std::uint8_t{1});
-    if (request.ignore) groups_ = read_groups(*request.ignore, mesh_.vertex_count);
-    if (groups_) require_whole_cells(*request.ignore, *groups_, mesh_);
-    const auto x = sequence.x_t0();
-    mass_ = masses_by_size(mesh_, x);
-    contact_.emplace(mesh_, x, mass_, fixed_, exclusions(),
+    mass_ = masses_by_size(mesh_, x_);
+    contact_.emplace(mesh_, x_, mass_, fixed_, exclusions(),
                      StepContact::Wanted{request.thickness, request.restitution, request.friction});
-    outcome.thickness = contact_->greatest_bound();
-    outcome.mean_edge = noli::mean_edge(mesh_, x);
-    outcome.cells = mesh_.cell_count();
-    gaps_.emplace(mesh_, vectors_of<Dim>({x.begin(), x.end()}), fixed_, exclusions());
+    gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions());
     filter_.emplace(mesh_, mass_, fixed_, *contact_, *gaps_, stop_);
     verifier_.emplace(mesh_, options(false, true));
-    const Mesh fixed_part = fixed_cells();
-    if (fixed_part.cell_count() > 1) fixed_verifier_.emplace(fixed_part, options(false, false));
+    Mesh fixed_part = fixed_cells(mesh_, fixed_);
+    if (fixed_part.cell_count() > 1) fixed_verifier_.emplace(std::move(fixed_part), options(false, false));
+    outcome.cells = mesh_.cell_count();
+    outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
+    outcome.thickness = contact_->greatest_bound();
+    outcome.mean_edge = mean_edge(mesh_, x_);
   }
 
-  /// Precondition: the sequence is at its first step.
+  /// Throws Ended, Stopped.
   void operator()() {
-    x_.assign(sequence_.x_t0().begin(), sequence_.x_t0().end());
     require_free_start();
-    write(0, x_);
+    frames_.write(0, {sequence_.mesh(), x_}, true);
     do {
       end_if(stopped());
       repair_step();
@@ -98,17 +131,11 @@ class Repair {
 
   /// Whatever is written stays.
   void finish() {
-    files_.finish();
-    outcome_.frames = files_.count();
-    outcome_.removed = files_.removed();
-    write_times();
+    frames_.finish(outcome_);
+    outcome_.by_body = changes_.by_body();
   }
 
-  std::vector<std::filesystem::path> written() const {
-    std::vector<std::filesystem::path> all;
-    for (std::uint64_t i = 0; i < files_.count(); ++i) all.push_back(files_.file(i));
-    return all;
-  }
+  std::vector<std::filesystem::path> written() const { return frames_.files(); }
 
  private:
   bool stopped() const {
@@ -125,22 +152,6 @@ class Repair {
   }
 
   const Exclusions* exclusions() const { return groups_ ? &groups_->exclusions : nullptr; }
-
-  /// The cells that move as given.
-  Mesh fixed_cells() const {
-    Mesh part;
-    part.vertex_count = mesh_.vertex_count;
-    const auto is_fixed = [&](VertexId v) { return fixed_[v] != 0; };
-    const auto take = [&](const auto& cells, auto& into) {
-      for (const auto& cell : cells) {
-        if (std::ranges::all_of(cell, is_fixed)) into.push_back(cell);
-      }
-    };
-    take(mesh_.faces, part.faces);
-    take(mesh_.edges, part.edges);
-    std::ranges::copy_if(mesh_.points, std::back_inserter(part.points), is_fixed);
-    return part;
-  }
 
   SequenceOptions options(bool at_rest, bool first_only) const {
     SequenceOptions options;
@@ -160,6 +171,8 @@ class Repair {
     request_.progress("repair", static_cast<double>(outcome_.steps) / static_cast<double>(outcome_.steps_total));
   }
 
+  // --- What cannot be ------------------------------------------------------------------------------------------------
+
   void require_free_start() {
     SequenceVerifier at_rest(mesh_, options(true, false));
     const StepResult found = at_rest.step(x_, x_);
@@ -175,6 +188,16 @@ class Repair {
     throw Ended{RepairEnd::start_touches};
   }
 
+  /// What moves as given cannot be kept apart.
+  void require_room_between_fixed() {
+    if (!fixed_verifier_) return;
+    const StepResult found = fixed_verifier_->step(sequence_.x_t0(), y_);
+    end_if(!found.complete && !found.touches());
+    if (!found.touches()) return;
+    note(found, number(), outcome_.obstacle.emplace());
+    throw Ended{RepairEnd::blocked};
+  }
+
   static void note(const StepResult& found, std::size_t step, RepairObstacle& obstacle) {
     obstacle.step = step;
     obstacle.time = found.first->time;
@@ -182,18 +205,19 @@ class Repair {
     obstacle.vertices = found.first->contact.vertices;
   }
 
+  // --- A step --------------------------------------------------------------------------------------------------------
+
   std::size_t number() const { return sequence_.step() + 1; }
 
   void repair_step() {
     y_.assign(sequence_.x_t1().begin(), sequence_.x_t1().end());
-    const StepResult straight = decide(x_, y_);
-    if (!straight.touches()) return accept(1, y_);
+    if (!touches(x_, y_)) return accept(1, y_);
     require_room_between_fixed();
     Retries retries;
     std::optional<Retry> how = Retry{};
     while (how) {
       std::uint32_t deepest = 0;
-      if (auto moved = filtered(*how)) {
+      if (const std::optional<FilteredStep> moved = filtered(*how)) {
         deepest = moved->deepest;
         if (append(*moved)) return;
       }
@@ -203,20 +227,10 @@ class Repair {
   }
 
   /// Decides the straight lines from a to b.
-  StepResult decide(const std::vector<Position>& a, const std::vector<Position>& b) {
-    StepResult found = verifier_->step(a, b);
+  bool touches(const std::vector<Position>& a, const std::vector<Position>& b) {
+    const StepResult found = verifier_->step(a, b);
     end_if(!found.complete && !found.touches());
-    return found;
-  }
-
-  /// What moves as given cannot be kept apart.
-  void require_room_between_fixed() {
-    if (!fixed_verifier_) return;
-    const StepResult found = fixed_verifier_->step(sequence_.x_t0(), y_);
-    end_if(!found.complete && !found.touches());
-    if (!found.touches()) return;
-    note(found, number(), outcome_.obstacle.emplace());
-    throw Ended{RepairEnd::blocked};
+    return found.touches();
   }
 
   std::optional<FilteredStep> filtered(const Retry& how) {
@@ -254,8 +268,7 @@ class Repair {
       const double t = std::ldexp(static_cast<double>(at + length), -finest);
       std::vector<Position> to = moved.at(t);
       if (t < 1) keep_third(to);
-      const StepResult found = decide(from, to);
-      if (found.touches()) {
+      if (touches(from, to)) {
         length /= 2;
         if (length == 0) return false;
         continue;
@@ -270,80 +283,28 @@ class Repair {
     return true;
   }
 
-  /// The frame at a time within the step has been decided.
+  void note_change(const FilteredStep& moved, std::size_t inserted) {
+    const Distances distances = changes_.add(moved.end, y_);
+    outcome_.changed.push_back({number(), inserted, distances.moved(), distances.largest(),
+                                distances.root_mean_square(), distances.vertex(), moved.deepest});
+    for (std::size_t k = 0; k < 3; ++k) outcome_.momentum_into_fixed[k] += moved.momentum_into_fixed[k];
+  }
+
+  /// The motion up to this time of the step has been decided.
   void accept(double t, std::vector<Position> x) {
     x_ = std::move(x);
-    write(static_cast<double>(sequence_.step()) + t, x_);
-  }
-
-  void note_change(const FilteredStep& moved, std::size_t inserted) {
-    RepairedStep step;
-    step.step = number();
-    step.inserted = inserted;
-    step.deepest = moved.deepest;
-    double sum = 0;
-    for (std::size_t i = 0; i < y_.size(); ++i) {
-      double squared = 0;
-      for (std::size_t k = 0; k < 3; ++k) squared += (moved.end[i][k] - y_[i][k]) * (moved.end[i][k] - y_[i][k]);
-      if (!(squared > 0)) continue;
-      ++step.moved;
-      sum += squared;
-      if (std::sqrt(squared) <= step.largest) continue;
-      step.largest = std::sqrt(squared);
-      step.vertex = static_cast<VertexId>(i);
-    }
-    if (step.moved > 0) step.rms = std::sqrt(sum / static_cast<double>(step.moved));
-    outcome_.changed.push_back(step);
-  }
-
-  /// A frame that is as given has the bytes of the given file, if that is one of its own and of the same format.
-  void write(double time, const std::vector<Position>& x) {
-    const auto k = static_cast<std::size_t>(time);
-    const bool given = time == static_cast<double>(k) &&
-                       std::ranges::equal(x, k == sequence_.step() ? sequence_.x_t0() : sequence_.x_t1());
-    given_.push_back(given);
-    if (given && own_file(k)) {
-      files_.add_copy(time, request_.frames[k]);
-      ++outcome_.copied;
-    } else {
-      files_.add(time, {sequence_.mesh(), x}, write_);
-    }
-  }
-
-  bool own_file(std::size_t k) const {
-    return source_.count() == request_.frames.size() && is_frame_name(request_.frames[k]) &&
-           request_.frames[k].extension() == files_.ending();
-  }
-
-  static std::string csv_cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return cell + '"';
-  }
-
-  /// Next to the frames: which file is which moment.
-  void write_times() {
-    std::string text = "file,time,given\n";
-    for (std::uint64_t i = 0; i < files_.count(); ++i) {
-      const double t = files_.times()[i];
-      const bool whole = t == std::floor(t);
-      text += fmt::format("{},{},{}\n", csv_cell(files_.file(i).filename().string()), t,
-                          whole ? csv_cell(source_.name(static_cast<std::size_t>(t))) : "");
-    }
-    outcome_.times = files_.folder() / "times.csv";
-    write_file(outcome_.times, text);
+    frames_.write(static_cast<double>(sequence_.step()) + t, {sequence_.mesh(), x_}, t == 1 && x_ == y_);
   }
 
   const RepairRequest& request_;
-  FrameSource& source_;
   FrameSequence& sequence_;
   RepairOutcome& outcome_;
-  FrameFiles files_;
-  FrameWriter write_;
+  RepairedFrames frames_;
   Mesh mesh_;  ///< with the points that are compared
-  integrator::Stop stop_;
   std::vector<std::uint8_t> fixed_;
+  integrator::Stop stop_;
+  Changes changes_;
+  std::vector<Position> x_, y_;  ///< where the step begins, repaired; where it is to end, as given
   std::vector<double> mass_;
   std::optional<Groups> groups_;
   std::optional<StepContact> contact_;
@@ -351,9 +312,21 @@ class Repair {
   std::optional<StepFilter<Dim>> filter_;
   std::optional<SequenceVerifier> verifier_;        ///< of the new frames
   std::optional<SequenceVerifier> fixed_verifier_;  ///< of what moves as given
-  std::vector<Position> x_, y_;                     ///< where the step begins, repaired; where it is to end, as given
-  std::vector<bool> given_;                         ///< by frame that is written
 };
+
+/// The file of --ignore for frames whose bodies are one mesh without names.
+std::filesystem::path groups_by_number(const std::filesystem::path& ignore, const std::vector<FrameBody>& bodies,
+                                       const std::filesystem::path& folder) {
+  const Groups named =
+      read_groups(ignore, bodies.back().first_vertex + bodies.back().vertices, names_of_frames(bodies));
+  Json json = {{"groups", Json::object()}, {"ignore", Json::array()}};
+  for (const FrameBody& body : bodies) {
+    json["groups"][body.name] = Json::array({{body.first_vertex, body.first_vertex + body.vertices - 1}});
+  }
+  for (const auto& [a, b] : named.exclusions.pairs) json["ignore"].push_back({named.names[a], named.names[b]});
+  write_file(folder / "groups.json", json.dump());
+  return folder / "groups.json";
+}
 
 /// What `noli verify` says of the new frames.
 void verify_all(const RepairRequest& request, std::vector<std::filesystem::path> frames, RepairOutcome& outcome) {
@@ -361,16 +334,19 @@ void verify_all(const RepairRequest& request, std::vector<std::filesystem::path>
   again.frames = std::move(frames);
   again.order = FrameOrder::given;
   again.put_in_order();
-  again.reading.polygons = request.reading.polygons;
   again.dimension = outcome.dimension;
   again.threads = request.threads;
   again.points = request.points;
-  again.ignore = request.ignore;
   again.proof = request.proof;
   again.check = request.check;
   again.deadline = request.deadline;
   again.stop = request.stop;
   again.progress = request.progress;
+  std::optional<ScratchFolder> folder;
+  again.ignore = request.ignore;
+  if (request.ignore && !outcome.bodies.empty()) {
+    again.ignore = groups_by_number(*request.ignore, outcome.bodies, folder.emplace().path());
+  }
   ProofRoute route(again);
   outcome.verified = run_verify(again);
   route.check(*outcome.verified);
@@ -387,8 +363,7 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
     outcome.end = stopped.reason() == StopReason::out_of_time ? RepairEnd::out_of_time : RepairEnd::interrupted;
   }
   work.finish();
-  if (outcome.end != RepairEnd::done) return;
-  verify_all(request, work.written(), outcome);
+  if (outcome.end == RepairEnd::done) verify_all(request, work.written(), outcome);
 }
 
 }  // namespace
@@ -414,16 +389,19 @@ RepairOutcome run_repair(const RepairRequest& given) {
   const Stopwatch watch;
   RepairRequest request = given;
   RepairOutcome outcome;
-  OrderedFrames ordered = order_frames(std::move(request.frames), request.order);
-  request.frames = std::move(ordered.frames);
-  outcome.notes = std::move(ordered.notes);
-  const std::unique_ptr<FrameSource> source = open_frames(request.frames, request.reading);
+  if (request.reading.bodies.empty()) {
+    OrderedFrames ordered = order_frames(std::move(request.frames), request.order);
+    request.frames = std::move(ordered.frames);
+    outcome.notes = std::move(ordered.notes);
+  }
+  const std::unique_ptr<FrameSource> source = open_all_frames(request.frames, request.reading);
   FrameSequence sequence(*source);
   for (std::size_t k = 0; k < source->count().value_or(0); ++k) source->look_at(k);
   sequence.next();
   outcome.steps_total = sequence.step_count().value_or(0);
   outcome.frames_given = source->count().value_or(0);
   outcome.vertices = sequence.mesh().vertex_count;
+  outcome.bodies = source->bodies();
   outcome.dimension = request.dimension.value_or(in_one_plane(sequence.x_t0(), sequence.x_t1()) ? 2 : 3);
   if (outcome.dimension == 2) {
     repair<2>(request, *source, sequence, outcome);

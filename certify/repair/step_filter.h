@@ -40,6 +40,7 @@ struct FilteredStep {
   std::vector<Position> end;  ///< the positions at time 1: those given, where nothing struck
   std::uint32_t deepest = 0;  ///< the deepest layer that acted
   std::size_t phases = 0;
+  Position momentum_into_fixed{};  ///< as in RepairOutcome
 
   /// The positions at a time in [0, 1], rounded.
   std::vector<Position> at(double t) const {
@@ -104,6 +105,7 @@ class StepFilter {
     const integrator::Model<double, Dim> model = model_of(now, next, contact);
     integrator::Simulation<double, Dim> simulation = simulation_at<Dim>(model, {}, how.halvings, how.least_layers);
     std::vector<FilteredStep::Piece> pieces;
+    Position into_fixed{};
     integrator::Recording<double, Dim> recording;
     while (simulation.time() < model.window_length) {
       recording.clear();
@@ -112,11 +114,15 @@ class StepFilter {
         throw Stopped(stop_asked().value_or(StopReason::interrupted), "a step that is repaired");
       }
       if (!simulation.finite()) return false;
+      for (int k = 0; k < Dim; ++k) {
+        into_fixed[static_cast<std::size_t>(k)] -= books.of(integrator::ForceKind::contact).impulse[k];
+      }
       pieces.push_back({now, integrator::world_lines<Dim>(recording, model.x.size())});
     }
     std::move(pieces.begin(), pieces.end(), std::back_inserter(step.pieces));
     step.deepest = std::max(step.deepest, simulation.certificates().deepest);
     ++step.phases;
+    for (std::size_t k = 0; k < 3; ++k) step.momentum_into_fixed[k] += into_fixed[k];
     state_ = simulation.snapshot();
     for (std::size_t i = 0; i < model.x.size(); ++i) {
       if (fixed_[i] != 0) state_.v[i] = to_[i] - from_[i];

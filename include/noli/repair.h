@@ -43,9 +43,9 @@
 namespace noli {
 
 struct RepairRequest {
-  std::vector<std::filesystem::path> frames;  ///< files in the order of time
+  std::vector<std::filesystem::path> frames;  ///< files in the order of time, or all files of `reading.bodies`
   FrameOrder order = FrameOrder::checked;     ///< as in VerifyRequest
-  FrameReading reading;                       ///< without bodies
+  FrameReading reading;                       ///< bodies are joined: the new frames are of one mesh
   std::string pattern;  ///< of the new frames, with one %d or %0Nd; its ending names the format: .ply, .obj, .vtu
   bool force = false;   ///< existing files of that pattern may be replaced or removed
   std::optional<int> dimension;                 ///< as in VerifyRequest
@@ -53,6 +53,7 @@ struct RepairRequest {
   bool points = false;                          ///< vertices that no cell refers to are particles
   std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
   std::uint64_t fixed_first = 0;                ///< so many vertices, from the first, move as given
+  std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
   double restitution = 0.1;                     ///< share of the energy of an approach that comes back, 0 to 1
   double friction = 0;                          ///< Coulomb's coefficient
@@ -86,6 +87,13 @@ struct RepairedStep {
   std::uint32_t deepest = 0;    ///< the deepest layer that acted
 };
 
+/// How much a body was moved, in all steps.
+struct RepairedBody {
+  std::string name;
+  std::uint64_t moved = 0;      ///< vertices that did not end where they were given, counted anew in each step
+  double largest = 0, rms = 0;  ///< distance of these from where they were given
+};
+
 /// Features that cannot be kept apart, and when.
 struct RepairObstacle {
   std::size_t step = 0;  ///< from 1; 0: the first frame
@@ -101,10 +109,15 @@ struct RepairOutcome {
   std::size_t vertices = 0, cells = 0, frames_given = 0, steps_total = 0;
   std::size_t steps = 0;              ///< repaired or passed on
   std::vector<RepairedStep> changed;  ///< in the order of time
-  std::size_t frames = 0;             ///< written
-  std::size_t copied = 0;             ///< of these, byte for byte the given files
-  double thickness = 0;               ///< of the first layer, where the mesh is coarse
-  double mean_edge = 0;               ///< of the first frame: a scale for distances
+  std::vector<RepairedBody> by_body;  ///< of bodies with names
+  std::vector<FrameBody> bodies;      ///< where they are in the mesh; empty if frames have no bodies
+  std::uint64_t fixed = 0;            ///< vertices that move as given
+  /// What fixed vertices took, in all steps: relative to the mean mass of a vertex, times length per step.
+  Position momentum_into_fixed{};
+  std::size_t frames = 0;  ///< written
+  std::size_t copied = 0;  ///< of these, byte for byte the given files
+  double thickness = 0;    ///< of the first layer, where the mesh is coarse
+  double mean_edge = 0;    ///< of the first frame: a scale for distances
   std::optional<RepairObstacle> obstacle;
   std::filesystem::path times;            ///< the table of frames and their times
   std::uint64_t removed = 0;              ///< files of an earlier repair that were not replaced

@@ -81,6 +81,48 @@ TEST_F(Repair, FixedVerticesMoveAsGiven) {
   for (VertexId v = 3; v < 6; ++v) EXPECT_GT(repaired[v][2], 0) << v;
 }
 
+TEST_F(Repair, BodiesAreJoinedAndSomeMoveAsGiven) {
+  const auto triangle = [&](const char* name, double z) {
+    return folder.write(name, ply_text({{1, 1, z}, {1.5, 1, z}, {1, 1.5, z}}, {{0, 1, 2}}));
+  };
+  const std::string floor = folder.write("floor.ply", ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}));
+  triangle("cloth_0.ply", 1), triangle("cloth_1.ply", -1);
+  triangle("lid_0.ply", 3), triangle("lid_1.ply", 2);
+  const Words bodies = {"repair",
+                        "-o",
+                        pattern(),
+                        "--body",
+                        "cloth=" + folder.path("cloth_*.ply"),
+                        "--body",
+                        "lid=" + folder.path("lid_*.ply"),
+                        "--fixed",
+                        "lid",
+                        "--obstacle",
+                        floor};
+  const Json json = json_of(bodies, 0);
+  EXPECT_EQ(json["verdict"], "proved");
+  EXPECT_EQ(json["fixed"], 6);
+  ASSERT_EQ(json["bodies"].size(), 3u);
+  EXPECT_EQ(json["bodies"][0]["moved"], 3);
+  EXPECT_EQ(json["bodies"][1]["moved"], 0);
+  EXPECT_EQ(json["bodies"][2]["moved"], 0);
+  EXPECT_LT(json["momentum_into_fixed"][2], 0) << "the floor is pushed down";
+  const auto last = positions(out(json["frames"].get<std::size_t>() - 1));
+  for (VertexId v = 3; v < 6; ++v) EXPECT_EQ(last[v][2], 2);
+  for (VertexId v = 6; v < 9; ++v) EXPECT_EQ(last[v][2], 0);
+  // Bodies that may pass through each other do.
+  Words through = bodies;
+  through.insert(through.end(),
+                 {"--force", "--ignore", folder.write("ignore.json", R"({"ignore": [["cloth", "floor"]]})")});
+  const Json passed = json_of(through, 0);
+  EXPECT_TRUE(passed["changed"].empty());
+  Words wrong = bodies;
+  wrong.insert(wrong.end(), {"--force", "--fixed", "hat"});
+  const Process refused = run_noli(wrong);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("--fixed hat: there is no such body"), std::string::npos) << refused.err;
+}
+
 TEST_F(Repair, AStartThatTouchesCannotBe) {
   const Process process = run_noli(repair(falling({0, 1})));
   EXPECT_EQ(process.exit_code, 1) << process.out << process.err;
