@@ -98,6 +98,7 @@ Command add_repair(CLI::App& app) {
   command->add_option("--fixed-first", request.fixed_first, "The first N vertices move as given")
       ->check(whole_number(0, 1'000'000'000))
       ->type_name("N");
+  command->add_flag("--resume", request.resume, "Go on behind the last whole step of a repair that was ended");
   add_order_option(*command, request.order);
   command
       ->add_option("--thickness", request.thickness,

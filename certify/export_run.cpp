@@ -21,7 +21,10 @@ namespace {
 class Export {
  public:
   Export(const ExportRequest& request, const FrameWriter& write)
-      : request_(request), write_(write), reader_(open_run(request.run)), files_(request.pattern, request.force) {}
+      : request_(request),
+        write_(write),
+        reader_(open_run(request.run)),
+        files_(request.pattern, request.force ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {}
 
   ExportOutcome operator()() {
     outcome_.recorded = reader_.header().record == RecordMode::frames;

@@ -57,8 +57,8 @@ FrameWriter frame_writer_of(const std::string& pattern) {
   refuse(pattern);
 }
 
-FrameFiles::FrameFiles(const std::string& pattern, bool force) : pattern_(parse_pattern(pattern)) {
-  find_earlier(pattern, force);
+FrameFiles::FrameFiles(const std::string& pattern, Existing existing) : pattern_(parse_pattern(pattern)) {
+  find_earlier(pattern, existing);
   make_writable_folder(pattern_.folder(), "-o");
 }
 
@@ -70,7 +70,7 @@ bool FrameFiles::may_be(const std::filesystem::path& file) const {
   return std::filesystem::equivalent(there.parent_path(), mine, error);
 }
 
-void FrameFiles::find_earlier(const std::string& pattern, bool force) {
+void FrameFiles::find_earlier(const std::string& pattern, Existing existing) {
   const std::filesystem::path folder = pattern_.folder();
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
@@ -79,7 +79,7 @@ void FrameFiles::find_earlier(const std::string& pattern, bool force) {
     if (!series && !pattern_.number(path)) continue;
     if (entry.is_directory(error)) throw UsageError("-o " + path.string() + ": is a folder; expected a file");
     if (!series) earlier_.push_back(path);
-    if (force) continue;
+    if (existing == Existing::replaced) continue;
     throw UsageError("-o " + pattern + ": " + path.string() + " exists already; choose another name, or pass --force");
   }
 }

@@ -33,9 +33,17 @@ FrameWriter frame_writer_of(const std::string& pattern);
 /// The files that a command writes its frames to. Those of a .vtu pattern get a series for ParaView beside them.
 class FrameFiles {
  public:
+  enum class Existing : std::uint8_t {
+    refused,
+    replaced,  ///< or removed by finish()
+  };
+
   /// Makes the folder. Throws UsageError: no pattern, a place that cannot be written to; existing files of the pattern
-  /// without `force`.
-  FrameFiles(const std::string& pattern, bool force);
+  /// if they are refused.
+  FrameFiles(const std::string& pattern, Existing existing);
+
+  /// The first frames are there already, with these times. Precondition: none has been written.
+  void go_on(std::vector<double> times) { times_ = std::move(times); }
 
   /// Writes the next frame. Throws std::system_error.
   void add(double time, const Frame& frame, const FrameWriter& write);
@@ -56,7 +64,7 @@ class FrameFiles {
   const std::string& series() const { return series_; }  ///< the file for ParaView that finish() wrote; empty: none
 
  private:
-  void find_earlier(const std::string& pattern, bool force);
+  void find_earlier(const std::string& pattern, Existing existing);
   bool has_series() const { return pattern_.after.ends_with(".vtu"); }
   std::filesystem::path series_path() const;
 

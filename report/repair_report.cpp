@@ -105,7 +105,7 @@ std::string place_of(const RepairOutcome& outcome) {
     case RepairEnd::done:
       return fmt::format(
           "{} frames ({} inserted, {} as given), {} of {} steps changed: nothing touches{}", outcome.frames,
-          outcome.inserted(), outcome.copied, outcome.changed.size(), outcome.steps_total,
+          outcome.inserted, outcome.copied, outcome.changed.size(), outcome.steps_total,
           outcome.verified->checker
               ? fmt::format(" (accepted by {} {})", outcome.verified->checker->name, outcome.verified->checker->version)
               : " (decided exactly, not checked)");
@@ -128,7 +128,7 @@ std::string what_to_try(const RepairOutcome& outcome) {
     case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
     case RepairEnd::undecided: return "try another --thickness or --restitution, or let fewer vertices be fixed.";
     case RepairEnd::interrupted:
-    case RepairEnd::out_of_time: return "give it more time: the frames up to there are written.";
+    case RepairEnd::out_of_time: return "--resume goes on behind the last whole step.";
   }
   return "";
 }
@@ -157,9 +157,10 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["friction"] = request.friction;
   json["mean_edge"] = outcome.mean_edge;
   json["steps"] = outcome.steps;
+  json["steps_before"] = outcome.steps_before;
   json["steps_total"] = outcome.steps_total;
   json["frames"] = outcome.frames;
-  json["inserted"] = outcome.inserted();
+  json["inserted"] = outcome.inserted;
   json["copied"] = outcome.copied;
   json["changed"] = changed_json(outcome);
   json["bodies"] = bodies_json(outcome);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -119,14 +118,23 @@ class Repair {
 
   /// Throws Ended, Stopped.
   void operator()() {
-    require_free_start();
-    frames_.write(0, {sequence_.mesh(), x_}, true);
-    do {
+    bool more = true;
+    if (auto last = frames_.go_on()) {
+      x_ = std::move(last->positions);
+      outcome_.steps = outcome_.steps_before = last->step;
+      for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
+    } else {
+      require_free_start();
+      frames_.write(0, {sequence_.mesh(), x_}, true);
+      frames_.commit();
+    }
+    for (; more; more = sequence_.next()) {
       end_if(stopped());
       repair_step();
+      frames_.commit();
       ++outcome_.steps;
       tell();
-    } while (sequence_.next());
+    }
   }
 
   /// Whatever is written stays.
@@ -380,11 +388,6 @@ const char* name(RepairEnd end) {
   return "";
 }
 
-std::size_t RepairOutcome::inserted() const {
-  return std::accumulate(changed.begin(), changed.end(), std::size_t{0},
-                         [](std::size_t sum, const RepairedStep& step) { return sum + step.inserted; });
-}
-
 RepairOutcome run_repair(const RepairRequest& given) {
   const Stopwatch watch;
   RepairRequest request = given;
@@ -394,6 +397,7 @@ RepairOutcome run_repair(const RepairRequest& given) {
     request.frames = std::move(ordered.frames);
     outcome.notes = std::move(ordered.notes);
   }
+  if (request.force && request.resume) throw UsageError("--force, --resume: expected one of them");
   const std::unique_ptr<FrameSource> source = open_all_frames(request.frames, request.reading);
   FrameSequence sequence(*source);
   for (std::size_t k = 0; k < source->count().value_or(0); ++k) source->look_at(k);

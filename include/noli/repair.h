@@ -48,6 +48,7 @@ struct RepairRequest {
   FrameReading reading;                       ///< bodies are joined: the new frames are of one mesh
   std::string pattern;  ///< of the new frames, with one %d or %0Nd; its ending names the format: .ply, .obj, .vtu
   bool force = false;   ///< existing files of that pattern may be replaced or removed
+  bool resume = false;  ///< go on where an earlier repair with the same frames and options ended, however it did
   std::optional<int> dimension;                 ///< as in VerifyRequest
   int threads = 0;                              ///< of what decides; 0: all there are
   bool points = false;                          ///< vertices that no cell refers to are particles
@@ -108,24 +109,24 @@ struct RepairOutcome {
   int dimension = 3;
   std::size_t vertices = 0, cells = 0, frames_given = 0, steps_total = 0;
   std::size_t steps = 0;              ///< repaired or passed on
-  std::vector<RepairedStep> changed;  ///< in the order of time
+  std::size_t steps_before = 0;       ///< of these, by earlier calls (resume)
+  std::vector<RepairedStep> changed;  ///< by this call, in the order of time
   std::vector<RepairedBody> by_body;  ///< of bodies with names
   std::vector<FrameBody> bodies;      ///< where they are in the mesh; empty if frames have no bodies
   std::uint64_t fixed = 0;            ///< vertices that move as given
   /// What fixed vertices took, in all steps: relative to the mean mass of a vertex, times length per step.
   Position momentum_into_fixed{};
-  std::size_t frames = 0;  ///< written
-  std::size_t copied = 0;  ///< of these, byte for byte the given files
-  double thickness = 0;    ///< of the first layer, where the mesh is coarse
-  double mean_edge = 0;    ///< of the first frame: a scale for distances
+  std::size_t frames = 0;    ///< that are written
+  std::size_t inserted = 0;  ///< of these, between given ones
+  std::size_t copied = 0;    ///< of these, byte for byte the given files
+  double thickness = 0;      ///< of the first layer, where the mesh is coarse
+  double mean_edge = 0;      ///< of the first frame: a scale for distances
   std::optional<RepairObstacle> obstacle;
   std::filesystem::path times;            ///< the table of frames and their times
   std::uint64_t removed = 0;              ///< files of an earlier repair that were not replaced
   std::optional<VerifyOutcome> verified;  ///< what `noli verify` says of the new frames, if all are written
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall clock
-
-  std::size_t inserted() const;
 };
 
 /// Throws InputError, UsageError (the pattern; options that do not go together), WriteError and std::system_error (the

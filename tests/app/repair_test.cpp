@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "tests/app/audits/libraries.h"
 #include "tests/app/process.h"
@@ -173,6 +174,34 @@ TEST_F(Repair, ThreadsChangeNoByte) {
   }
 }
 
+/// All that a repair writes, by name.
+std::map<std::string, std::string> content_of(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files[entry.path().filename().string()] = read_text(entry.path());
+  }
+  return files;
+}
+
+TEST_F(Repair, WhatWasKilledAnywhereResumesToTheSameBytes) {
+  const Words frames = falling({1, 0.5, -0.5, -1, -0.5, 1, -1});
+  ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
+  const auto whole = content_of(folder.path("out"));
+  const std::string table = whole.at("times.csv");
+  for (std::size_t bytes = 0; bytes <= table.size(); bytes += 7) {
+    // As if it had been killed when so much of the table was written, perhaps within a frame.
+    folder.write("out/times.csv", table.substr(0, bytes));
+    folder.write("out/003.ply", bytes < 120 ? "torn" : whole.at("003.ply"));
+    fs::remove(out(whole.size() - 3));
+    const Process process = run_noli(repair(frames, {"--resume"}));
+    ASSERT_EQ(process.exit_code, 0) << bytes << process.out << process.err;
+    ASSERT_EQ(content_of(folder.path("out")), whole) << bytes;
+  }
+  const Process other = run_noli(repair(frames, {"--resume", "--restitution", "0.5"}));
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("with other options"), std::string::npos) << other.err;
+}
+
 TEST_F(Repair, InThePlaneThirdCoordinatesStay) {
   const auto curve = [&](const char* name, double y) {
     return folder.write(name, fmt::format("v 0 0 7\nv 2 0 7\nv 0.5 {} 7\nv 1.5 {} 7\nl 1 2\nl 3 4\n", y, y));
@@ -197,8 +226,8 @@ TEST_F(Repair, TheTableSaysWhichFrameIsWhen) {
   const Words frames = falling({1, -0.5, 1});
   const Json json = json_of(repair(frames), 0);
   const std::string table = read_text(json["times"].get<std::string>());
-  EXPECT_TRUE(table.starts_with("file,time,given\n000.ply,0," + frames[0] + "\n")) << table;
-  EXPECT_NE(table.find(",2," + frames[2] + "\n"), std::string::npos) << table;
+  EXPECT_TRUE(table.starts_with("file,time,given,what\n000.ply,0," + frames[0] + ",copied\n")) << table;
+  EXPECT_NE(table.find(",2," + frames[2] + ",copied\n"), std::string::npos) << table;
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), json["frames"].get<int>() + 1);
 }
 
