@@ -64,6 +64,7 @@ ExitCode run(RepairArguments& arguments) {
   }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
   if (request.ignore) inputs.push_back(*request.ignore);
+  if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
   std::vector<OutputFile> outputs;
   if (request.proof) outputs.push_back({"--proof", *request.proof, true});
   const Output output(arguments.results, inputs, outputs);
@@ -116,6 +117,12 @@ Command add_repair(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str()
       ->type_name("E")
+      ->group(group::question);
+  command
+      ->add_option("--masses", request.masses,
+                   "Of vertices: size (by area and length), uniform, or a text file with a number for each")
+      ->capture_default_str()
+      ->type_name("size|uniform|FILE")
       ->group(group::question);
   command->add_option("--friction", request.friction, "Coulomb's coefficient")
       ->check(is_not_negative())

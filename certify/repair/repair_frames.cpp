@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include <noli/errors.h>
@@ -25,6 +26,7 @@
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
+#include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
 namespace noli {
@@ -62,6 +64,28 @@ std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size
     std::fill_n(begin, body.vertices, std::uint8_t{1});
   }
   return fixed;
+}
+
+/// By vertex, of any unit. Throws InputError.
+std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x) {
+  if (request.masses == "size") return masses_by_size(mesh, x);
+  if (request.masses == "uniform") return std::vector<double>(mesh.vertex_count, 1);
+  std::istringstream in(read_whole_file(request.masses));
+  std::vector<double> masses;
+  double sum = 0;
+  for (double mass = 0; in >> mass;) {
+    if (!(mass > 0 && std::isfinite(mass))) {
+      throw InputError(request.masses, fmt::format("number {}", masses.size() + 1), "expected a positive number");
+    }
+    masses.push_back(mass);
+    sum += mass;
+  }
+  if (!in.eof() || masses.size() != mesh.vertex_count) {
+    throw InputError(request.masses, fmt::format("number {}", masses.size() + 1),
+                     fmt::format("expected {} numbers, one for each vertex", mesh.vertex_count));
+  }
+  for (double& mass : masses) mass *= static_cast<double>(masses.size()) / sum;
+  return masses;
 }
 
 /// The cells that move as given.
@@ -102,7 +126,7 @@ class Repair {
       groups_ = read_groups(*request.ignore, mesh_.vertex_count, names_of_frames(source.bodies()));
       require_whole_cells(*request.ignore, *groups_, mesh_);
     }
-    mass_ = masses_by_size(mesh_, x_);
+    mass_ = masses_of(request, mesh_, x_);
     contact_.emplace(mesh_, x_, mass_, fixed_, exclusions(),
                      StepContact::Wanted{request.thickness, request.restitution, request.friction});
     gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions());

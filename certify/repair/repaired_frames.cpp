@@ -55,6 +55,7 @@ std::string RepairedFrames::fingerprint() const {
       fmt::format("{} {} {} {} {} {} {}\n", request_.pattern, request_.fixed_first, request_.restitution,
                   request_.friction, request_.points, request_.thickness.value_or(0), request_.dimension.value_or(0));
   for (const std::string& body : request_.fixed_bodies) text += body + '\n';
+  text += request_.masses + '\n';
   if (request_.ignore) text += read_whole_file(*request_.ignore);
   for (const FrameFacts& facts : source_.facts()) text += fmt::format("{} {}\n", facts.file, facts.bytes);
   Sha256 hash;

@@ -56,10 +56,12 @@ struct RepairRequest {
   std::uint64_t fixed_first = 0;                ///< so many vertices, from the first, move as given
   std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
-  double restitution = 0.1;                     ///< share of the energy of an approach that comes back, 0 to 1
-  double friction = 0;                          ///< Coulomb's coefficient
-  std::optional<std::filesystem::path> proof;   ///< where the proof about the new frames goes
-  bool check = true;                            ///< the checker looks at it
+  /// "size": by area and length; "uniform"; else the name of a text file with a positive number for each vertex.
+  std::string masses = "size";
+  double restitution = 0.1;                    ///< share of the energy of an approach that comes back, 0 to 1
+  double friction = 0;                         ///< Coulomb's coefficient
+  std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes
+  bool check = true;                           ///< the checker looks at it
   std::optional<std::chrono::steady_clock::time_point> deadline;
   const std::atomic<bool>* stop = nullptr;  ///< polled
   /// Called with what is done, and the share of it in [0, 1]: "repair", then what verify tells. Calls do not overlap.

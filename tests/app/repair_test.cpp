@@ -124,6 +124,22 @@ TEST_F(Repair, BodiesAreJoinedAndSomeMoveAsGiven) {
   EXPECT_NE(refused.err.find("--fixed hat: there is no such body"), std::string::npos) << refused.err;
 }
 
+TEST_F(Repair, MassesSayWhoGivesWay) {
+  const Words frames = falling({1, -0.5});
+  const std::string heavy = folder.write("heavy.txt", "1000 1000 1000 1 1 1\n");
+  const auto moved = [&](const std::string& masses) {
+    const Json json = json_of(repair(frames, {"--force", "--masses", masses}), 0);
+    const auto x = positions(out(json["frames"].get<std::size_t>() - 1));
+    return std::abs(x[0][2]) + std::abs(x[1][2]) + std::abs(x[2][2]);  // of the lower triangle, which rests
+  };
+  EXPECT_GT(moved("uniform"), 100 * moved(heavy));
+  for (const char* wrong : {"1 1 1 1 1", "1 1 1 1 1 1 1", "1 1 1 1 1 0", "1 1 1 1 1 x", "1 1 1 1 1 inf"}) {
+    const Process refused = run_noli(repair(frames, {"--force", "--masses", folder.write("wrong.txt", wrong)}));
+    EXPECT_EQ(refused.exit_code, 3) << wrong;
+    EXPECT_NE(refused.err.find("wrong.txt: number "), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(Repair, AStartThatTouchesCannotBe) {
   const Process process = run_noli(repair(falling({0, 1})));
   EXPECT_EQ(process.exit_code, 1) << process.out << process.err;
