@@ -13,7 +13,7 @@
 #include "app/schema_texts.h"
 #include "app/terminal.h"
 #include "certify/result_file.h"
-#include "report/report_verdict.h"
+#include "report/page/report_verdict.h"
 
 namespace noli::app {
 namespace {

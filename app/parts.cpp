@@ -10,7 +10,7 @@
 
 #include "certify/process/this_program.h"
 #include "report/figures/png.h"
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 
 namespace noli::app {
 namespace {

@@ -45,7 +45,9 @@ class Changes {
     Distances step;
     std::size_t body = 0;
     for (VertexId v = 0; v < x.size(); ++v) {
-      const double distance = std::hypot(x[v][0] - y[v][0], x[v][1] - y[v][1], x[v][2] - y[v][2]);
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k) square += (x[v][k] - y[v][k]) * (x[v][k] - y[v][k]);
+      const double distance = std::sqrt(square);
       if (!(distance > 0)) continue;
       step.add(v, distance);
       while (body < bodies_.size() && v - bodies_[body].first_vertex >= bodies_[body].vertices) ++body;

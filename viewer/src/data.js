@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the page carries: report/report_page.h says what is in it and how it is packed.
+// What the page carries: report/page/report_page.h says what is in it and how it is packed.
 
 export const page = () => JSON.parse(document.getElementById("page").textContent);
 

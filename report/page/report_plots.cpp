@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_plots.h"
+#include "report/page/report_plots.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 
 namespace noli::report {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_run.h"
+#include "report/page/report_run.h"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,10 @@
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
-#include "report/report_end.h"
-#include "report/report_plots.h"
-#include "report/report_scene.h"
-#include "report/report_verdict.h"
+#include "report/page/report_end.h"
+#include "report/page/report_plots.h"
+#include "report/page/report_scene.h"
+#include "report/page/report_verdict.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/sample.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_results.h"
+#include "report/page/report_results.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include <noli/errors.h>
 #include "certify/listed_contacts.h"
 #include "integrator/scene/json_text.h"
-#include "report/report_statement.h"
-#include "report/report_verdict.h"
+#include "report/page/report_statement.h"
+#include "report/page/report_verdict.h"
 #include "trajectory/text.h"
 
 namespace noli::report {

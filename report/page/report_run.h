@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 #include "trajectory/formats/frame_source.h"
 
 namespace noli::report {

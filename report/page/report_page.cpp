@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 
 #include <array>
 #include <stdexcept>

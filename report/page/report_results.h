@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 
 namespace noli::report {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "report/report_motion.h"
-#include "report/report_page.h"
+#include "report/page/report_motion.h"
+#include "report/page/report_page.h"
 
 namespace noli::report {
 

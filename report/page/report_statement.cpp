@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_statement.h"
+#include "report/page/report_statement.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "report/report_verdict.h"
+#include "report/page/report_verdict.h"
 
 namespace noli::report {
 namespace {

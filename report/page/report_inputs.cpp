@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_inputs.h"
+#include "report/page/report_inputs.h"
 
 #include <fmt/format.h>
 

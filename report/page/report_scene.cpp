@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_scene.h"
+#include "report/page/report_scene.h"
 
 #include <span>
 #include <utility>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_motion.h"
+#include "report/page/report_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "report/report_page.h"
+#include "report/page/report_page.h"
 #include "trajectory/stop.h"
 
 namespace noli::report {

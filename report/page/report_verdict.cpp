@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/report_verdict.h"
+#include "report/page/report_verdict.h"
 
 #include <algorithm>
 #include <iterator>
