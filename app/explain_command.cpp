@@ -7,6 +7,7 @@
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
 #include "certify/run_explanation.h"
 #include "certify/runs/run_folder.h"
 #include "certify/simulate/start_check.h"
@@ -47,14 +48,15 @@ ExitCode explain_folder(const ExplainArguments& arguments) {
 }
 
 ExitCode run(const ExplainArguments& arguments) {
-  begin_work(arguments.time_limit);
+  const auto deadline = begin_work(arguments.time_limit);
   if (std::filesystem::is_directory(arguments.scene)) return explain_folder(arguments);
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const Output output(arguments.results, inputs_of_scene(arguments.scene));
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
   integrator::Explanation explanation = integrator::explain(scene);
-  const std::string met = contact_at_start(scene);
-  if (!met.empty()) explanation.warnings.push_back("the scene begins in contact, which no run does: " + met);
+  const std::string met = contact_at_start(scene, &interrupted(), deadline);
+  if (!met.empty())
+    explanation.warnings.push_back("the scene begins in contact, and `noli simulate` will refuse it: " + met);
   if (arguments.brief) note_missing_short_form(scene);
   report::Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
   answer.text = integrator::to_text(explanation);

@@ -13,6 +13,7 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
+#include "certify/repair/repaired_frames.h"
 #include "report/repair_report.h"
 #include "trajectory/formats/frame_names.h"
 
@@ -27,7 +28,7 @@ constexpr const char* repair_footer =
     "and the last line is what noli verify says of it:\n"
     "  proved      the checker accepted the proof: nothing touches            exit 0\n"
     "  no_contact  decided exactly, not checked (--no-check)                  exit 0\n"
-    "  cannot_be   the first frame touches, or what is fixed leaves no way    exit 1\n"
+    "  cannot_be   the first frame touches, or fixed vertices meet            exit 1\n"
     "  undecided   a limit was reached, or no way was found                   exit 2\n"
     "Examples:\n"
     "  noli repair 'cloth_*.obj' -o mended/cloth_%03d.obj\n"
@@ -48,6 +49,26 @@ ExitCode exit_code(const RepairOutcome& outcome) {
   return verdict == "undecided" ? ExitCode::undecided : ExitCode::holds;
 }
 
+/// Beside the results. The frames, and with --resume what stands beside them, are the business of run_repair().
+std::vector<OutputFile> outputs_of(const RepairArguments& arguments) {
+  const RepairRequest& request = arguments.request;
+  std::vector<OutputFile> files;
+  if (request.proof) {
+    if (*request.proof == "-") throw UsageError("--proof -: a proof is not text; expected the name of a file");
+    files.push_back({"--proof", *request.proof, true});
+  }
+  for (const std::filesystem::path& beside : files_beside_repaired(request.pattern)) {
+    const auto is_it = [&](const std::filesystem::path& other) {
+      std::error_code error;
+      return std::filesystem::weakly_canonical(other, error) == std::filesystem::weakly_canonical(beside, error);
+    };
+    if (is_it(arguments.results.json.value_or("-")) || (request.proof && is_it(*request.proof))) {
+      throw UsageError(beside.string() + ": is written beside the frames; expected another name for the output");
+    }
+  }
+  return files;
+}
+
 ExitCode run(RepairArguments& arguments) {
   RepairRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
@@ -65,10 +86,8 @@ ExitCode run(RepairArguments& arguments) {
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
   if (request.ignore) inputs.push_back(*request.ignore);
   if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
-  std::vector<OutputFile> outputs;
-  if (request.proof) outputs.push_back({"--proof", *request.proof, true});
-  const Output output(arguments.results, inputs, outputs);
-  request.force = arguments.results.force;
+  const Output output(arguments.results, inputs, outputs_of(arguments));
+  request.force = arguments.results.force && !request.resume;
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);
   request.progress = [&](std::string_view work, double share) { bars->show(work, share, ""); };
@@ -99,7 +118,7 @@ Command add_repair(CLI::App& app) {
   command->add_option("--fixed-first", request.fixed_first, "The first N vertices move as given")
       ->check(whole_number(0, 1'000'000'000))
       ->type_name("N");
-  command->add_flag("--resume", request.resume, "Go on behind the last whole step of a repair that was ended");
+  command->add_flag("--resume", request.resume, "Continue a stopped repair after its last complete step");
   add_order_option(*command, request.order);
   command
       ->add_option("--thickness", request.thickness,

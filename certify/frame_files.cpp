@@ -16,8 +16,10 @@ namespace noli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& pattern) {
-  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj, .vtu or .png");
+  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu");
 }
+
+}  // namespace
 
 FramePattern parse_pattern(const std::string& text) {
   const std::size_t percent = text.find('%'), d = text.find('d', percent);
@@ -29,8 +31,6 @@ FramePattern parse_pattern(const std::string& text) {
   if (!digits || (!width.empty() && width[0] != '0') || text.find('/', d) != std::string::npos) refuse(text);
   return {text.substr(0, percent), text.substr(d + 1), width.empty() ? 0 : std::stoul(width)};
 }
-
-}  // namespace
 
 std::filesystem::path FramePattern::file(std::uint64_t i) const {
   return fmt::format("{}{:0{}}{}", before, i, width, after);
@@ -45,6 +45,12 @@ std::optional<std::uint64_t> FramePattern::number(const std::filesystem::path& p
   const auto [rest, error] = std::from_chars(name.data() + begin, end, i);
   if (error != std::errc() || rest != end || file(i).filename() != name) return std::nullopt;
   return i;
+}
+
+std::filesystem::path FramePattern::beside(const std::string& what) const {
+  std::string stem = std::filesystem::path(before).filename().string();
+  while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
+  return folder() / (stem + (stem.empty() || what.empty() ? "" : "_") + what);
 }
 
 FrameWriter frame_writer_of(const std::string& pattern) {
@@ -63,11 +69,14 @@ FrameFiles::FrameFiles(const std::string& pattern, Existing existing) : pattern_
 }
 
 bool FrameFiles::may_be(const std::filesystem::path& file) const {
-  std::error_code error;
-  const std::filesystem::path there = std::filesystem::canonical(file, error);
-  if (error || !pattern_.number(folder() / there.filename())) return false;
   const std::filesystem::path mine = folder().empty() ? "." : folder();
-  return std::filesystem::equivalent(there.parent_path(), mine, error);
+  std::error_code error;
+  const auto is_here = [&](const std::filesystem::path& path) {
+    if (!pattern_.number(folder() / path.filename())) return false;
+    const std::filesystem::path parent = path.parent_path().empty() ? "." : path.parent_path();
+    return std::filesystem::equivalent(parent, mine, error);
+  };
+  return is_here(file) || is_here(std::filesystem::canonical(file, error));
 }
 
 void FrameFiles::find_earlier(const std::string& pattern, Existing existing) {
@@ -84,13 +93,21 @@ void FrameFiles::find_earlier(const std::string& pattern, Existing existing) {
   }
 }
 
+std::filesystem::path FrameFiles::free_name() const {
+  const std::filesystem::path name = file(count());
+  std::filesystem::remove(name);
+  return name;
+}
+
 void FrameFiles::add(double time, const Frame& frame, const FrameWriter& write) {
-  write(frame, file(count()));
+  write(frame, free_name());
   times_.push_back(time);
 }
 
 void FrameFiles::add_copy(double time, const std::filesystem::path& file) {
-  std::filesystem::copy_file(file, this->file(count()), std::filesystem::copy_options::overwrite_existing);
+  const std::filesystem::path name = free_name();
+  std::filesystem::copy_file(file, name);
+  std::filesystem::permissions(name, std::filesystem::perms::owner_write, std::filesystem::perm_options::add);
   times_.push_back(time);
 }
 
@@ -106,11 +123,9 @@ void FrameFiles::finish() {
   }
 }
 
-/// Next to the frames, named like them without the number.
 std::filesystem::path FrameFiles::series_path() const {
-  std::string stem = std::filesystem::path(pattern_.before).filename().string();
-  while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
-  return pattern_.folder() / ((stem.empty() ? "series" : stem) + ".pvd");
+  const std::filesystem::path plain = beside("");
+  return plain.filename().empty() ? folder() / "series.pvd" : std::filesystem::path(plain.string() + ".pvd");
 }
 
 }  // namespace noli

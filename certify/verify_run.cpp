@@ -208,7 +208,7 @@ class SequenceVerification : private Verification {
       throw InputError(sequence_.name_t0(), "",
                        "no faces, edges or points; expected something that can touch (see --points)");
     }
-    outcome_.dimension = request_.dimension.value_or(in_plane() ? 2 : 3);
+    outcome_.dimension = request_.dimension.value_or(in_one_plane(sequence_.x_t0(), sequence_.x_t1()) ? 2 : 3);
     if (request_.ignore) leave_out(*request_.ignore, mesh);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -248,15 +248,9 @@ class SequenceVerification : private Verification {
     }
   }
 
-  bool in_plane() const {
-    const auto x_t0 = sequence_.x_t0(), x_t1 = sequence_.x_t1();
-    return all_z_equal(x_t0) && all_z_equal(x_t1) && (x_t0.empty() || x_t0[0][2] == x_t1[0][2]);
-  }
-
   void require_plane() const {
-    if (request_.dimension || outcome_.dimension == 3 || in_plane()) return;
-    throw InputError(sequence_.name_t1(), "",
-                     "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
+    if (request_.dimension || outcome_.dimension == 3) return;
+    require_one_plane(sequence_.x_t0(), sequence_.x_t1(), sequence_.name_t1());
   }
 
   /// Notes two equal frames in a row, which are usually a mistake in the files.

@@ -53,15 +53,16 @@ Json obstacle_json(const RepairOutcome& outcome) {
   Json json = {{"step", obstacle.step}, {"time", obstacle.time}};
   if (obstacle.cells) {
     json["cells"] = {obstacle.vertices[0], obstacle.vertices[1]};
+    json["names"] = obstacle.names;
   } else {
     json.update(contact_json(FeatureContact{obstacle.kind, obstacle.vertices, {}}));
   }
   return json;
 }
 
-std::string pair_of(const RepairOutcome& outcome) {
+std::string obstacle_pair(const RepairOutcome& outcome) {
   const RepairObstacle& obstacle = *outcome.obstacle;
-  if (obstacle.cells) return fmt::format("cell {} × cell {}", obstacle.vertices[0], obstacle.vertices[1]);
+  if (obstacle.cells) return obstacle.names[0] + " × " + obstacle.names[1];
   return names_of_frames(outcome.bodies).pair(obstacle.kind, obstacle.vertices, "×");
 }
 
@@ -71,9 +72,12 @@ std::string distance_text(double distance, const RepairOutcome& outcome) {
   return fmt::format("{} ({:.2g} mean edges)", digits4(distance), distance / outcome.mean_edge);
 }
 
-std::string changes_text(const RepairOutcome& outcome) {
+std::string repaired_steps_text(const RepairOutcome& outcome) {
   constexpr std::size_t most = 12;
-  if (outcome.changed.empty()) return "No step touches; all frames are as given.\n";
+  if (outcome.changed.empty()) {
+    const bool all = outcome.end == RepairEnd::done && outcome.steps_before == 0;
+    return all ? "No step touches; all frames are as given.\n" : "";
+  }
   std::string text = fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", "step", "vertices", "largest", "rms",
                                  "inserted", "deepest layer");
   for (std::size_t i = 0; i < std::min(most, outcome.changed.size()); ++i) {
@@ -93,42 +97,46 @@ std::string changes_text(const RepairOutcome& outcome) {
                             distance_text(most_changed.largest, outcome));
 }
 
-std::string place_of(const RepairOutcome& outcome) {
+std::string repair_place(const RepairOutcome& outcome) {
   const auto at = [&outcome] {
     const RepairObstacle& obstacle = *outcome.obstacle;
     return obstacle.step == 0
-               ? "first frame  " + pair_of(outcome)
-               : fmt::format("step {}  t = {}  {}", obstacle.step, digits4(obstacle.time), pair_of(outcome));
+               ? "first frame  " + obstacle_pair(outcome)
+               : fmt::format("step {}  t = {}  {}", obstacle.step, digits4(obstacle.time), obstacle_pair(outcome));
+  };
+  const auto settled = [&outcome] {
+    const VerifyOutcome& verified = *outcome.verified;
+    if (verified.verdict == Verdict::undecided) return std::string("all are written, but the last check was cut short");
+    if (!verified.checker) return std::string("nothing touches (decided exactly, not checked)");
+    return fmt::format("nothing touches (accepted by {} {})", verified.checker->name, verified.checker->version);
   };
   const std::string so_far = fmt::format("{} of {} steps repaired", outcome.steps, outcome.steps_total);
   switch (outcome.end) {
     case RepairEnd::done:
-      return fmt::format(
-          "{} frames ({} inserted, {} as given), {} of {} steps changed: nothing touches{}", outcome.frames,
-          outcome.inserted, outcome.copied, outcome.changed.size(), outcome.steps_total,
-          outcome.verified->checker
-              ? fmt::format(" (accepted by {} {})", outcome.verified->checker->name, outcome.verified->checker->version)
-              : " (decided exactly, not checked)");
+      return fmt::format("{} frames ({} inserted, {} as given), {} of {} steps changed: {}", outcome.frames,
+                         outcome.inserted, outcome.as_given, outcome.changed.size(),
+                         outcome.steps_total - outcome.steps_before, settled());
     case RepairEnd::start_touches: return at() + ": they touch from the beginning";
     case RepairEnd::blocked: return at() + ": both move as given";
     case RepairEnd::undecided:
-      return so_far + "; " + (outcome.obstacle ? at() + " is too near for numbers to go on" : "no way was found");
+      return so_far + "; " + (outcome.obstacle ? at() + " are too close for double precision" : "no way was found");
     case RepairEnd::interrupted: return so_far + " (interrupted)";
     case RepairEnd::out_of_time: return so_far + " (time limit)";
   }
   return "";
 }
 
-std::string what_to_try(const RepairOutcome& outcome) {
+std::string repair_advice(const RepairOutcome& outcome) {
   switch (outcome.end) {
-    case RepairEnd::done: return "";
+    case RepairEnd::done:
+      return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : "";
     case RepairEnd::start_touches:
       return "separate them in the first frame, or leave them out with --ignore: they may then pass through each "
              "other.";
     case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
     case RepairEnd::undecided: return "try another --thickness or --restitution, or let fewer vertices be fixed.";
     case RepairEnd::interrupted:
-    case RepairEnd::out_of_time: return "--resume goes on behind the last whole step.";
+    case RepairEnd::out_of_time: return "--resume continues after the last complete step.";
   }
   return "";
 }
@@ -161,6 +169,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["steps_total"] = outcome.steps_total;
   json["frames"] = outcome.frames;
   json["inserted"] = outcome.inserted;
+  json["as_given"] = outcome.as_given;
   json["copied"] = outcome.copied;
   json["changed"] = changed_json(outcome);
   json["bodies"] = bodies_json(outcome);
@@ -171,7 +180,8 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
                                     {"version", outcome.verified->checker->version},
                                     {"commit", outcome.verified->checker->commit}})
                             : Json(nullptr);
-  json["proof"] = request.proof ? Json(request.proof->string()) : Json(nullptr);
+  const bool proof = request.proof && outcome.verified && outcome.verified->proof_begun;
+  json["proof"] = proof ? Json(request.proof->string()) : Json(nullptr);
   json["notes"] = outcome.notes;
   json["timing"] = {{"seconds", outcome.seconds}};
   return json;
@@ -181,13 +191,17 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
   Answer answer(repair_json(request, outcome),
                 {"end", "steps", "steps_total", "frames", "inserted", "copied", "changed", "thickness"});
   for (const std::string& note : outcome.notes) answer.text += fmt::format("Note: {}.\n", on_one_line(note));
-  if (outcome.end != RepairEnd::start_touches) {
-    answer.text += changes_text(outcome);
-    answer.text += fmt::format("Aimed at: a gap of {}. Times of the frames: {}\n",
+  if (outcome.steps_before > 0) {
+    answer.text += fmt::format("Earlier calls repaired {} of {} steps; they are not listed.\n", outcome.steps_before,
+                               outcome.steps_total);
+  }
+  if (outcome.end != RepairEnd::start_touches && outcome.thickness > 0) {
+    answer.text += repaired_steps_text(outcome);
+    answer.text += fmt::format("Aimed at: a gap of {} where cells are largest. Times of the frames: {}\n",
                                distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
   }
-  answer.next = what_to_try(outcome);
-  answer.place = place_of(outcome);
+  answer.next = repair_advice(outcome);
+  answer.place = repair_place(outcome);
   return answer;
 }
 

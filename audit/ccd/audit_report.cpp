@@ -240,14 +240,15 @@ std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path&
 }
 
 std::string said_text(const std::string& who, const std::string& said) {
-  constexpr std::size_t most = 20;
+  constexpr std::size_t most = 20, most_of_line = 1000;
   std::vector<std::string> lines;
   std::istringstream in(said);
-  for (std::string line; std::getline(in, line);) lines.push_back(on_one_line(line));
+  for (std::string line; std::getline(in, line);) lines.push_back(on_one_line(line.substr(0, most_of_line)));
   if (lines.size() == 1) return fmt::format("{} wrote to its standard error: {}\n", who, lines.front());
-  // Sanitizers begin with this word and end with a legend; of what others write, the last lines tell most.
+  // Of a sanitizer's report the beginning tells most, of anything else the end.
   const auto error = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) {
-    return line.find("ERROR: ") != std::string::npos;
+    return line.find("ERROR: ") != std::string::npos || line.find("WARNING: ThreadSanitizer") != std::string::npos ||
+           line.find("runtime error: ") != std::string::npos;
   });
   std::size_t begin = lines.size() > most ? lines.size() - most : 0;
   if (error != lines.rend()) begin = static_cast<std::size_t>(lines.rend() - error) - 1;

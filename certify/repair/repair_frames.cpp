@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <noli/errors.h>
@@ -37,12 +37,12 @@ struct Ended {
   RepairEnd end;
 };
 
+RepairEnd end_of(const Stopped& stopped) {
+  return stopped.reason() == StopReason::out_of_time ? RepairEnd::out_of_time : RepairEnd::interrupted;
+}
+
 /// Where a step is cut so that straight lines between its frames touch nothing: at multiples of 2^-finest.
 constexpr int finest = 20;
-
-bool in_one_plane(std::span<const Position> a, std::span<const Position> b) {
-  return all_z_equal(a) && all_z_equal(b) && (a.empty() || a[0][2] == b[0][2]);
-}
 
 /// By vertex, 1 if it moves as given. Throws UsageError.
 std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size_t count,
@@ -66,24 +66,42 @@ std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size
   return fixed;
 }
 
+/// Sums and ratios of masses stay far from the ends of doubles.
+constexpr double least_mass = 1e-100, most_ratio = 1e4;
+
 /// By vertex, of any unit. Throws InputError.
 std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x) {
   if (request.masses == "size") return masses_by_size(mesh, x);
   if (request.masses == "uniform") return std::vector<double>(mesh.vertex_count, 1);
-  std::istringstream in(read_whole_file(request.masses));
+  const std::string text = read_whole_file(request.masses);
   std::vector<double> masses;
-  double sum = 0;
-  for (double mass = 0; in >> mass;) {
-    if (!(mass > 0 && std::isfinite(mass))) {
-      throw InputError(request.masses, fmt::format("number {}", masses.size() + 1), "expected a positive number");
+  Lines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    Words words(line);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      double mass = 0;
+      const std::string problem = parse_finite(word, mass);
+      if (!problem.empty() || mass < least_mass || mass > 1 / least_mass) {
+        throw InputError(
+            request.masses, line_place(lines.number()),
+            fmt::format("expected a mass from {} to {}, found {}", least_mass, 1 / least_mass, in_quotes(word)));
+      }
+      masses.push_back(mass);
     }
-    masses.push_back(mass);
-    sum += mass;
   }
-  if (!in.eof() || masses.size() != mesh.vertex_count) {
-    throw InputError(request.masses, fmt::format("number {}", masses.size() + 1),
-                     fmt::format("expected {} numbers, one for each vertex", mesh.vertex_count));
+  if (masses.size() != mesh.vertex_count) {
+    throw InputError(request.masses, "",
+                     fmt::format("has {} numbers; expected {}, one for each vertex", masses.size(), mesh.vertex_count));
   }
+  const auto [least, greatest] = std::ranges::minmax_element(masses);
+  if (*greatest > most_ratio * *least) {
+    throw InputError(
+        request.masses, "",
+        fmt::format("masses from {} to {}; expected none above {} times another one, which would take very "
+                    "short steps: let what is heavy be fixed instead",
+                    *least, *greatest, most_ratio));
+  }
+  const double sum = std::accumulate(masses.begin(), masses.end(), 0.0);
   for (double& mass : masses) mass *= static_cast<double>(masses.size()) / sum;
   return masses;
 }
@@ -122,6 +140,10 @@ class Repair {
       const auto loose = unreferenced_vertices(mesh_);
       mesh_.points.insert(mesh_.points.end(), loose.begin(), loose.end());
     }
+    if (mesh_.cell_count() == 0) {
+      throw InputError(sequence.name_t0(), "",
+                       "no faces, edges or points; expected something that can touch (see --points)");
+    }
     if (request.ignore) {
       groups_ = read_groups(*request.ignore, mesh_.vertex_count, names_of_frames(source.bodies()));
       require_whole_cells(*request.ignore, *groups_, mesh_);
@@ -130,7 +152,7 @@ class Repair {
     contact_.emplace(mesh_, x_, mass_, fixed_, exclusions(),
                      StepContact::Wanted{request.thickness, request.restitution, request.friction});
     gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions());
-    filter_.emplace(mesh_, mass_, fixed_, *contact_, *gaps_, stop_);
+    filter_.emplace(mesh_, mass_, fixed_, *contact_, *gaps_, stop_, [this](double part) { tell(part); });
     verifier_.emplace(mesh_, options(false, true));
     Mesh fixed_part = fixed_cells(mesh_, fixed_);
     if (fixed_part.cell_count() > 1) fixed_verifier_.emplace(std::move(fixed_part), options(false, false));
@@ -143,7 +165,7 @@ class Repair {
   /// Throws Ended, Stopped.
   void operator()() {
     bool more = true;
-    if (auto last = frames_.go_on()) {
+    if (auto last = frames_.begin(sequence_.mesh())) {
       x_ = std::move(last->positions);
       outcome_.steps = outcome_.steps_before = last->step;
       for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
@@ -157,13 +179,24 @@ class Repair {
       repair_step();
       frames_.commit();
       ++outcome_.steps;
-      tell();
+      tell(0);
     }
   }
 
   /// Whatever is written stays.
   void finish() {
     frames_.finish(outcome_);
+    if (request_.thickness && *request_.thickness > outcome_.thickness) {
+      outcome_.notes.push_back(
+          fmt::format("--thickness {} is more than half of the least height of cells: it is {} at most",
+                      *request_.thickness, outcome_.thickness));
+    }
+    if (outcome_.frames > outcome_.copied) {
+      outcome_.notes.emplace_back(
+          "frames that are not copies have vertices, faces, edges and points alone: no texture coordinates, materials "
+          "or "
+          "groups, and polygons are cut into triangles");
+    }
     outcome_.by_body = changes_.by_body();
   }
 
@@ -198,9 +231,11 @@ class Repair {
     return options;
   }
 
-  void tell() const {
+  /// `part`: of the step.
+  void tell(double part) const {
     if (!request_.progress || outcome_.steps_total == 0) return;
-    request_.progress("repair", static_cast<double>(outcome_.steps) / static_cast<double>(outcome_.steps_total));
+    const double done = static_cast<double>(outcome_.steps) + part;
+    request_.progress("repair", std::min(1.0, done / static_cast<double>(outcome_.steps_total)));
   }
 
   // --- What cannot be ------------------------------------------------------------------------------------------------
@@ -215,7 +250,10 @@ class Repair {
       note(found, 0, obstacle);
     } else {
       obstacle.cells = true;
-      obstacle.vertices = {found.initial_reports.front().first_cell, found.initial_reports.front().second_cell};
+      const InitialIntersection& cells = found.initial_reports.front();
+      obstacle.vertices = {cells.first_cell, cells.second_cell};
+      const BodyNames names = names_of_frames(outcome_.bodies);
+      obstacle.names = {names.cell(mesh_, cells.first_cell), names.cell(mesh_, cells.second_cell)};
     }
     throw Ended{RepairEnd::start_touches};
   }
@@ -242,6 +280,9 @@ class Repair {
   std::size_t number() const { return sequence_.step() + 1; }
 
   void repair_step() {
+    if (Dim == 2 && !request_.dimension) {
+      require_one_plane(sequence_.x_t0(), sequence_.x_t1(), sequence_.name_t1());
+    }
     y_.assign(sequence_.x_t1().begin(), sequence_.x_t1().end());
     if (!touches(x_, y_)) return accept(1, y_);
     require_room_between_fixed();
@@ -277,6 +318,9 @@ class Repair {
       obstacle.kind = limit.pair.kind;
       std::copy_n(limit.pair.vertices.begin(), limit.pair.size(), obstacle.vertices.begin());
       throw Ended{RepairEnd::undecided};
+    } catch (const StepTooLong& error) {
+      outcome_.notes.push_back(fmt::format("step {}: {}", number(), error.what()));
+      throw Ended{RepairEnd::undecided};
     } catch (const Stopped&) {
       end_if(true);
       throw;
@@ -294,25 +338,30 @@ class Repair {
   /// written, if even the finest cut touches.
   bool append(const FilteredStep& moved) {
     constexpr std::uint32_t whole = 1U << finest;
-    std::vector<std::pair<double, std::vector<Position>>> frames;
+    std::vector<double> times;
     std::vector<Position> from = x_;
     for (std::uint32_t at = 0, length = whole; at < whole;) {
       const double t = std::ldexp(static_cast<double>(at + length), -finest);
-      std::vector<Position> to = moved.at(t);
-      if (t < 1) keep_third(to);
+      std::vector<Position> to = positions_at(moved, t);
       if (touches(from, to)) {
         length /= 2;
         if (length == 0) return false;
         continue;
       }
       at += length;
-      frames.emplace_back(t, to);
+      times.push_back(t);
       from = std::move(to);
       if (at % (2 * length) == 0 && length < whole) length *= 2;
     }
-    note_change(moved, frames.size() - 1);
-    for (auto& [t, x] : frames) accept(t, std::move(x));
+    note_change(moved, times.size() - 1);
+    for (const double t : times) accept(t, positions_at(moved, t));
     return true;
+  }
+
+  std::vector<Position> positions_at(const FilteredStep& moved, double t) const {
+    std::vector<Position> x = moved.at(t);
+    if (t < 1) keep_third(x);
+    return x;
   }
 
   void note_change(const FilteredStep& moved, std::size_t inserted) {
@@ -366,7 +415,7 @@ void verify_all(const RepairRequest& request, std::vector<std::filesystem::path>
   again.frames = std::move(frames);
   again.order = FrameOrder::given;
   again.put_in_order();
-  again.dimension = outcome.dimension;
+  again.dimension = request.dimension;
   again.threads = request.threads;
   again.points = request.points;
   again.proof = request.proof;
@@ -382,6 +431,34 @@ void verify_all(const RepairRequest& request, std::vector<std::filesystem::path>
   ProofRoute route(again);
   outcome.verified = run_verify(again);
   route.check(*outcome.verified);
+  for (const std::string& note : outcome.verified->notes) outcome.notes.push_back(note);
+  if (outcome.verified->not_checked) outcome.notes.push_back("not checked: " + *outcome.verified->not_checked);
+  if (!outcome.verified->touches()) return;
+  const std::string step = outcome.verified->first ? fmt::format(" in step {}", outcome.verified->first->step) : "";
+  throw std::runtime_error(fmt::format(
+      "the new frames touch{}, although each step was decided when it was written: was a file changed?", step));
+}
+
+/// Looks at all frames, and reads those of the first step. False if it was stopped.
+bool look_at_all(const RepairRequest& request, FrameSource& source, FrameSequence& sequence, RepairOutcome& outcome) {
+  try {
+    const std::size_t count = source.count().value_or(0);
+    for (std::size_t k = 0; k < count; ++k) {
+      source.look_at(k);
+      if (request.progress) request.progress("look", static_cast<double>(k + 1) / static_cast<double>(count));
+      if (request.stop != nullptr && request.stop->load(std::memory_order_relaxed)) throw Ended{RepairEnd::interrupted};
+      if (request.deadline && std::chrono::steady_clock::now() >= *request.deadline) {
+        throw Ended{RepairEnd::out_of_time};
+      }
+    }
+    sequence.next();
+    return true;
+  } catch (const Ended& ended) {
+    outcome.end = ended.end;
+  } catch (const Stopped& stopped) {
+    outcome.end = end_of(stopped);
+  }
+  return false;
 }
 
 template <int Dim>
@@ -392,7 +469,7 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
   } catch (const Ended& ended) {
     outcome.end = ended.end;
   } catch (const Stopped& stopped) {  // while a frame was read
-    outcome.end = stopped.reason() == StopReason::out_of_time ? RepairEnd::out_of_time : RepairEnd::interrupted;
+    outcome.end = end_of(stopped);
   }
   work.finish();
   if (outcome.end == RepairEnd::done) verify_all(request, work.written(), outcome);
@@ -421,13 +498,11 @@ RepairOutcome run_repair(const RepairRequest& given) {
     request.frames = std::move(ordered.frames);
     outcome.notes = std::move(ordered.notes);
   }
-  if (request.force && request.resume) throw UsageError("--force, --resume: expected one of them");
   const std::unique_ptr<FrameSource> source = open_all_frames(request.frames, request.reading);
   FrameSequence sequence(*source);
-  for (std::size_t k = 0; k < source->count().value_or(0); ++k) source->look_at(k);
-  sequence.next();
   outcome.steps_total = sequence.step_count().value_or(0);
   outcome.frames_given = source->count().value_or(0);
+  if (!look_at_all(request, *source, sequence, outcome)) return outcome;
   outcome.vertices = sequence.mesh().vertex_count;
   outcome.bodies = source->bodies();
   outcome.dimension = request.dimension.value_or(in_one_plane(sequence.x_t0(), sequence.x_t1()) ? 2 : 3);

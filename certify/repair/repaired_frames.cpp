@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 
 #include <noli/errors.h>
+#include <noli/version.h>
 #include "certify/json.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_names.h"
@@ -30,82 +30,109 @@ std::string csv_cell(const std::string& text) {
 
 bool is_whole(double time) { return time == std::floor(time); }
 
-FrameFiles::Existing existing(const RepairRequest& request) {
-  return request.force || request.resume ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused;
-}
-
 }  // namespace
+
+std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern) {
+  const FramePattern parsed = parse_pattern(pattern);
+  return {parsed.beside("times.csv"), parsed.beside("repair.json")};
+}
 
 RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& source)
     : request_(request),
       source_(source),
-      files_(request.pattern, existing(request)),
       write_(frame_writer_of(request.pattern)),
-      table_(files_.folder() / "times.csv"),
-      state_(files_.folder() / "repair.json") {
+      table_(files_beside_repaired(request.pattern)[0]),
+      state_(files_beside_repaired(request.pattern)[1]),
+      state_text_(Json({{"noli_repair", 1}, {"of", fingerprint()}}).dump() + '\n'),
+      resumes_(request.resume && is_there()),
+      files_(request.pattern,
+             request.force || resumes_ ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {
   for (const auto& frame : request.frames) {
     if (!files_.may_be(frame)) continue;
     throw UsageError("-o " + request.pattern + ": " + frame.string() + " is read; choose another folder or name");
   }
+  for (const auto& beside : {table_, state_}) {
+    const auto status = std::filesystem::symlink_status(beside);
+    if (status.type() == std::filesystem::file_type::not_found || request.force || resumes_) continue;
+    throw UsageError("-o " + request.pattern + ": " + beside.string() +
+                     " exists already; choose another name, or pass --force");
+  }
 }
 
-/// Thread counts, limits, the proof and the checker do not decide what is written.
+/// Threads, limits, the proof and the checker do not decide what is written.
 std::string RepairedFrames::fingerprint() const {
-  std::string text =
-      fmt::format("{} {} {} {} {} {} {}\n", request_.pattern, request_.fixed_first, request_.restitution,
-                  request_.friction, request_.points, request_.thickness.value_or(0), request_.dimension.value_or(0));
+  std::string text = fmt::format("{}\n{} {} {} {} {} {} {}\n", version_commit(), request_.pattern, request_.fixed_first,
+                                 request_.restitution, request_.friction, request_.points,
+                                 request_.thickness.value_or(0), request_.dimension.value_or(0));
+  text += fmt::format("{} {}\n", request_.masses, request_.reading.polygons == PolygonRule::refuse);
+  if (request_.masses != "size" && request_.masses != "uniform") text += read_whole_file(request_.masses);
+  for (const std::string& key : request_.reading.keys) text += key + '\n';
   for (const std::string& body : request_.fixed_bodies) text += body + '\n';
-  text += request_.masses + '\n';
+  for (const BodyFrames& body : request_.reading.bodies) text += fmt::format("{} {}\n", body.name, body.still);
   if (request_.ignore) text += read_whole_file(*request_.ignore);
-  for (const FrameFacts& facts : source_.facts()) text += fmt::format("{} {}\n", facts.file, facts.bytes);
+  for (const FrameFacts& facts : source_.facts()) {
+    text += fmt::format("{} {} {} {}\n", facts.file, facts.body, facts.bytes, hex(facts.sha256));
+  }
   Sha256 hash;
   hash.update(text);
   return hex(hash.digest());
 }
 
-std::optional<RepairedFrames::Last> RepairedFrames::go_on() {
-  const Json mine = {{"noli_repair", 1}, {"of", fingerprint()}};
+bool RepairedFrames::is_there() const {
   std::error_code error;
-  if (request_.resume && std::filesystem::exists(state_, error) && std::filesystem::exists(table_, error)) {
-    if (Json::parse(read_whole_file(state_), nullptr, false) != mine) {
-      throw InputError(state_.string(), "", "is of a repair of other frames, or with other options; expected the same");
-    }
-    rows_ = rows_of_table();
-    while (!rows_.empty() && !(is_whole(rows_.back().time) && std::filesystem::exists(files_.file(rows_.size() - 1)))) {
-      rows_.pop_back();
-    }
-  }
-  std::string table = table_head;
-  std::vector<double> times;
-  for (const Row& row : rows_) {
-    table += row.text;
-    times.push_back(row.time);
-  }
-  replace_file(state_, mine.dump() + '\n');
-  replace_file(table_, table);
-  committed_ = rows_.size();
-  if (rows_.empty()) return std::nullopt;
-  files_.go_on(std::move(times));
-  return Last{static_cast<std::size_t>(rows_.back().time), read_frame(files_.file(rows_.size() - 1)).positions};
+  if (!std::filesystem::is_regular_file(state_, error) || !std::filesystem::is_regular_file(table_, error))
+    return false;
+  if (read_whole_file(state_) == state_text_) return true;
+  throw InputError(state_.string(), "",
+                   "is of a repair of other frames, with other options or by another version; expected the same");
 }
 
-/// Up to the first one that this program did not write like this.
-std::vector<RepairedFrames::Row> RepairedFrames::rows_of_table() const {
-  std::vector<Row> rows;
+std::optional<RepairedFrames::Last> RepairedFrames::begin(const Mesh& mesh) {
+  std::string table = table_head;
+  std::vector<double> times;
+  if (resumes_) keep_complete_steps(table, times);
+  // In this order, the state never stands beside rows of another repair.
+  replace_file(table_, table);
+  replace_file(state_, state_text_);
+  if (times.empty()) return std::nullopt;
+  const std::filesystem::path file = files_.file(times.size() - 1);
+  Frame frame = read_frame(file);
+  require_same_mesh(mesh, source_.name(0), frame.mesh, file);
+  const auto step = static_cast<std::size_t>(times.back());
+  files_.go_on(std::move(times));
+  return Last{step, std::move(frame.positions)};
+}
+
+/// The rows up to the last frame at the end of a step that is there; a line without its end was torn.
+void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>& times) {
   std::ifstream in(table_, std::ios::binary);
-  std::string line;
+  std::string line, rows;
+  std::vector<double> seen;
+  Counts counts;
   std::getline(in, line);
-  while (std::getline(in, line) && !in.eof()) {  // a line without its end was torn
-    const std::string name = csv_cell(files_.file(rows.size()).filename().string()) + ',';
-    const std::size_t what = line.rfind(',');
-    Row row{0, line + '\n', what == std::string::npos ? "" : line.substr(what + 1)};
-    if (!line.starts_with(name)) break;
-    const auto [rest, error] = std::from_chars(line.data() + name.size(), line.data() + line.size(), row.time);
-    const bool later = rows.empty() ? row.time == 0 : row.time > rows.back().time;
+  while (std::getline(in, line) && !in.eof()) {
+    const std::filesystem::path file = files_.file(seen.size());
+    const std::string name = csv_cell(file.filename().string()) + ',';
+    double time = 0;
+    if (!line.starts_with(name) || !std::filesystem::is_regular_file(file)) break;
+    const auto [rest, error] = std::from_chars(line.data() + name.size(), line.data() + line.size(), time);
+    const bool later = seen.empty() ? time == 0 : time > seen.back();
     if (error != std::errc() || *rest != ',' || !later) break;
-    rows.push_back(std::move(row));
+    seen.push_back(time);
+    rows += line + '\n';
+    counts.add(line.substr(line.rfind(',') + 1));
+    if (!is_whole(time)) continue;
+    table += rows;
+    rows.clear();
+    times = seen;
+    counts_ = counts;
   }
-  return rows;
+}
+
+void RepairedFrames::Counts::add(std::string_view what) {
+  copied += what == "copied" ? 1 : 0;
+  given += what == "given" ? 1 : 0;
+  inserted += what == "inserted" ? 1 : 0;
 }
 
 void RepairedFrames::write(double time, const Frame& frame, bool given) {
@@ -118,15 +145,16 @@ void RepairedFrames::write(double time, const Frame& frame, bool given) {
   } else {
     files_.add(time, frame, write_);
   }
-  rows_.push_back(
-      {time, fmt::format("{},{},{},{}\n", name, time, is_whole(time) ? csv_cell(source_.name(k)) : "", what), what});
+  pending_ += fmt::format("{},{},{},{}\n", name, time, is_whole(time) ? csv_cell(source_.name(k)) : "", what);
+  counts_.add(what);
 }
 
 void RepairedFrames::commit() {
   std::ofstream table(table_, std::ios::app | std::ios::binary);
-  for (; committed_ < rows_.size(); ++committed_) table << rows_[committed_].text;
+  table << pending_;
   table.close();
   if (table.fail()) throw WriteError(table_.string() + ": cannot be written");
+  pending_.clear();
 }
 
 bool RepairedFrames::has_own_file(std::size_t k) const {
@@ -137,8 +165,9 @@ bool RepairedFrames::has_own_file(std::size_t k) const {
 void RepairedFrames::finish(RepairOutcome& outcome) {
   files_.finish();
   outcome.frames = files_.count();
-  outcome.copied = static_cast<std::size_t>(std::ranges::count(rows_, "copied", &Row::what));
-  outcome.inserted = static_cast<std::size_t>(std::ranges::count(rows_, "inserted", &Row::what));
+  outcome.copied = counts_.copied;
+  outcome.as_given = counts_.copied + counts_.given;
+  outcome.inserted = counts_.inserted;
   outcome.removed = files_.removed();
   outcome.times = table_;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes the frames of a repaired motion, and beside them a table of which file is which moment. A step is committed by
-// its rows in the table, so a repair that was killed can go on behind the last whole step.
+// its rows in the table, so a repair that was killed can go on behind the last complete step.
 //
-// Files beside the frames
+// Files beside the frames, with the name of the pattern before them ("cloth_times.csv" of "cloth_%03d.ply")
 //   times.csv     a row for each frame: file, time in steps, the given frame of that time, and what it is: "copied" byte
 //                 for byte, "given" (the same numbers), "repaired", "inserted"
-//   repair.json   a hash of the names and sizes of the given frames, and of all options that decide what is written
+//   repair.json   a hash of all that decides what is written: the given files, the options, the program
 #pragma once
 
 #include <cstdint>
@@ -23,21 +23,23 @@ namespace noli {
 
 class RepairedFrames {
  public:
-  /// The arguments have to outlive this; the source has been looked at. Throws UsageError as FrameFiles does, and where
-  /// a new file would be one that is read.
+  /// The arguments have to outlive this; the source has been looked at. Throws UsageError where a file exists that may
+  /// not be replaced, and where a new file would be one that is read; InputError with `resume`, if the repair that is
+  /// there is another one.
   RepairedFrames(const RepairRequest& request, const FrameSource& source);
 
   struct Last {
     std::size_t step;  ///< so many are done
     std::vector<Position> positions;
   };
-  /// With `resume`, where an earlier repair ended; nothing if there is none. Throws InputError if it was another one.
-  std::optional<Last> go_on();
+  /// Begins the table; or, with `resume`, returns where an earlier repair ended. `mesh`: that of all frames. Throws
+  /// InputError for a frame of another mesh.
+  std::optional<Last> begin(const Mesh& mesh);
 
   /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and has the bytes of its file if that holds
   /// one frame in the format of the new ones. Throws std::system_error.
   void write(double time, const Frame& frame, bool given);
-  /// The step that was written last is whole. Throws std::system_error.
+  /// The step that was written last is complete. Throws WriteError.
   void commit();
   /// What is committed stays. Notes in the outcome what that is. Throws std::system_error.
   void finish(RepairOutcome& outcome);
@@ -45,22 +47,29 @@ class RepairedFrames {
   std::vector<std::filesystem::path> files() const;
 
  private:
-  struct Row {
-    double time;
-    std::string text, what;
+  /// What the rows say of frames.
+  struct Counts {
+    std::size_t copied = 0, given = 0, inserted = 0;
+    void add(std::string_view what);
   };
 
   bool has_own_file(std::size_t k) const;
   std::string fingerprint() const;
-  std::vector<Row> rows_of_table() const;
+  bool is_there() const;
+  void keep_complete_steps(std::string& table, std::vector<double>& times);
 
   const RepairRequest& request_;
   const FrameSource& source_;
-  FrameFiles files_;
   FrameWriter write_;
   std::filesystem::path table_, state_;
-  std::vector<Row> rows_;      ///< of all frames
-  std::size_t committed_ = 0;  ///< of these
+  std::string state_text_;
+  bool resumes_;
+  FrameFiles files_;
+  std::string pending_;  ///< rows that are not committed
+  Counts counts_;
 };
+
+/// The files beside the frames of a pattern. Throws UsageError for a pattern without a number.
+std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern);
 
 }  // namespace noli

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/repair/step_contact.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <noli/errors.h>
 #include "integrator/scene/scene.h"
 #include "integrator/vector.h"
 
@@ -13,7 +16,7 @@ namespace {
 
 using integrator::Vec;
 
-constexpr std::size_t most_classes = 16;
+constexpr std::size_t most_classes = 16, most_groups = 128;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Vec<double, 3> vector_of(const Position& x) { return {x[0], x[1], x[2]}; }
@@ -121,6 +124,22 @@ StepContact::StepContact(const Mesh& mesh, std::span<const Position> x, std::spa
     if (fixed[v] == 0) lightest = std::min(lightest, mass[v]);
   }
   if (std::isfinite(lightest)) least_mass_ = lightest;
+  if (exclusions != nullptr && !exclusions->empty()) number_groups();
+}
+
+/// Groups that no pair names are one group, as the table of pairs grows with the square of their number.
+void StepContact::number_groups() {
+  for (const auto& pair : exclusions_->pairs) named_groups_.insert(named_groups_.end(), pair.begin(), pair.end());
+  std::sort(named_groups_.begin(), named_groups_.end());
+  named_groups_.erase(std::unique(named_groups_.begin(), named_groups_.end()), named_groups_.end());
+  if (named_groups_.size() > most_groups) {
+    throw UsageError(fmt::format("--ignore: expected at most {} groups, found {}", most_groups, named_groups_.size()));
+  }
+  for (const std::uint16_t group : exclusions_->groups) {
+    const auto found = std::lower_bound(named_groups_.begin(), named_groups_.end(), group);
+    const bool named = found != named_groups_.end() && *found == group;
+    groups_.push_back(named ? static_cast<std::uint16_t>(found - named_groups_.begin() + 1) : std::uint16_t{0});
+  }
 }
 
 double StepContact::greatest_bound() const {
@@ -162,18 +181,13 @@ StepContact::Settings StepContact::settings(std::span<const double> sizes, std::
     contact.materials.push_back(material(thickness[c], heaviest[c], fastest[c]));
     result.least_step = std::min(result.least_step, contact.materials.back().step);
   }
-  contact.groups.assign(sizes.size(), 0);
-  if (exclusions_ != nullptr && !exclusions_->empty()) {
-    contact.groups = exclusions_->groups;
-    const std::uint16_t last = *std::max_element(contact.groups.begin(), contact.groups.end());
-    contact.group_count = static_cast<std::uint16_t>(last + 1);
-  }
+  contact.groups = groups_.empty() ? std::vector<std::uint16_t>(sizes.size(), 0) : groups_;
+  contact.group_count = static_cast<std::uint16_t>(named_groups_.size() + 1);
   const std::size_t groups = contact.group_count, classes = contact.class_count;
   contact.material_of.resize(groups * groups * classes * classes);
   for (std::size_t g = 0; g < groups; ++g) {
     for (std::size_t h = 0; h < groups; ++h) {
-      const bool excluded = exclusions_ != nullptr && !exclusions_->empty() &&
-                            exclusions_->excluded(static_cast<std::uint16_t>(g), static_cast<std::uint16_t>(h));
+      const bool excluded = g > 0 && h > 0 && exclusions_->excluded(named_groups_[g - 1], named_groups_[h - 1]);
       for (std::size_t a = 0; a < classes; ++a) {
         for (std::size_t b = 0; b < classes; ++b) {
           contact.material_of[contact.place(g, h, a, b)] =

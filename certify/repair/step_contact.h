@@ -45,7 +45,7 @@ class StepContact {
   };
 
   /// x: the first frame. `mass`, `fixed`: by vertex. `exclusions`: nothing, or pairs of groups that may pass through
-  /// each other. The arguments but x have to outlive this.
+  /// each other. The arguments but x have to outlive this. Throws UsageError for more than 128 groups.
   StepContact(const Mesh& mesh, std::span<const Position> x, std::span<const double> mass,
               std::span<const std::uint8_t> fixed, const Exclusions* exclusions, const Wanted& wanted);
 
@@ -61,6 +61,7 @@ class StepContact {
   Settings settings(std::span<const double> sizes, std::span<const double> speeds) const;
 
  private:
+  void number_groups();
   integrator::ContactMaterial material(double thickness, double greatest_mass, double speed) const;
 
   Wanted wanted_;
@@ -69,6 +70,8 @@ class StepContact {
   const Exclusions* exclusions_;
   std::vector<double> bounds_;
   double least_mass_ = 1;
+  std::vector<std::uint16_t> named_groups_;  ///< those of excluded pairs, ascending
+  std::vector<std::uint16_t> groups_;        ///< by vertex: 1 + its place among them, or 0; empty without exclusions
 };
 
 }  // namespace noli

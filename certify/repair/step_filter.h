@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,12 @@
 
 namespace noli {
 
+/// A step whose motion takes more memory than it may.
+struct StepTooLong : std::runtime_error {
+  StepTooLong()
+      : std::runtime_error("its motion has more than 2^26 changes of velocity; other layers may need fewer") {}
+};
+
 /// The motion of one step, over the times [0, 1].
 struct FilteredStep {
   struct Piece {
@@ -39,7 +47,7 @@ struct FilteredStep {
   std::vector<Piece> pieces;
   std::vector<Position> end;  ///< the positions at time 1: those given, where nothing struck
   std::uint32_t deepest = 0;  ///< the deepest layer that acted
-  std::size_t phases = 0;
+  std::size_t phases = 0, breakpoints = 0;
   Position momentum_into_fixed{};  ///< as in RepairOutcome
 
   /// The positions at a time in [0, 1], rounded.
@@ -54,13 +62,22 @@ struct FilteredStep {
 template <int Dim>
 class StepFilter {
  public:
-  /// `fixed`: by vertex, nonzero if it moves as given. The arguments have to outlive this.
+  /// `fixed`: by vertex, nonzero if it moves as given. `progress`: called with the share of the step that is done. The
+  /// other arguments have to outlive this.
   StepFilter(const Mesh& mesh, std::span<const double> mass, std::span<const std::uint8_t> fixed,
-             const StepContact& contact, NearGaps<Dim>& gaps, const integrator::Stop& stop)
-      : mesh_(mesh), mass_(mass), fixed_(fixed), contact_(contact), gaps_(gaps), stop_(stop) {}
+             const StepContact& contact, NearGaps<Dim>& gaps, const integrator::Stop& stop,
+             std::function<void(double)> progress)
+      : mesh_(mesh),
+        mass_(mass),
+        fixed_(fixed),
+        contact_(contact),
+        gaps_(gaps),
+        stop_(stop),
+        progress_(std::move(progress)) {}
 
-  /// From x towards y. Nothing if numbers ran out. In two dimensions third coordinates are 0. Throws
-  /// integrator::ContactLimit when layers do, with the time in the step; Stopped.
+  /// From x towards y. Nothing if a time or a coordinate can no longer be represented. In two dimensions third
+  /// coordinates are 0. Throws integrator::ContactLimit, with the time in the step, for features that are too near for
+  /// any layer; StepTooLong; Stopped.
   std::optional<FilteredStep> operator()(const std::vector<Position>& x, const std::vector<Position>& y,
                                          const Retry& how) {
     from_ = vectors_of<Dim>(x);
@@ -69,22 +86,29 @@ class StepFilter {
     for (std::size_t i = 0; i < x.size(); ++i) state_.v.push_back(to_[i] - from_[i]);
     FilteredStep step;
     double now = 0, longest = 1;
+    std::optional<integrator::ContactLimit> limited;  ///< by what a phase was cut short, until one succeeds
     while (now < 1) {
       const std::vector<double> sizes = gaps_(state_.x, contact_.bounds());
       const StepContact::Settings settings = contact_.settings(sizes, speeds_of(state_.v));
       const double length = std::min({1 - now, longest, most_firings * settings.least_step});
       const double next = length < 1 - now ? now + length : 1;
-      if (!(next > now)) return std::nullopt;  // so fast, or so near, that doubles know no time in between
+      if (!(next > now)) {  // so fast, or so near, that doubles know no time in between
+        if (limited) throw *limited;
+        return std::nullopt;
+      }
       try {
         if (!run_phase(now, next, settings.contact, how, step)) return std::nullopt;
       } catch (const integrator::ContactLimit& limit) {
         // Thinner layers, from half way on, may have more room.
         longest = std::min(length, limit.time) / 2;
-        if (!(longest > shortest_phase)) throw integrator::ContactLimit(limit.pair, now + limit.time);
+        limited.emplace(limit.pair, now + limit.time);
+        if (!(longest > shortest_phase)) throw *limited;
         continue;
       }
+      limited.reset();
       longest = std::min(1.0, 8 * longest);
       now = next;
+      progress_(now);
     }
     step.end = positions_of<Dim>(state_.x);
     for (std::size_t i = 0; i < step.end.size(); ++i) {
@@ -99,13 +123,15 @@ class StepFilter {
   /// Beyond, a new phase with thinner layers is cheaper.
   static constexpr std::uint32_t most_layers = 64;
 
-  /// Goes on from state_ at the time `now` to `next`. False if numbers ran out. If it throws, nothing has changed.
+  /// Goes on from state_ at the time `now` to `next`. False if numbers are no longer finite. If it throws,
+  /// nothing has changed.
   bool run_phase(double now, double next, const integrator::ContactSettings& contact, const Retry& how,
                  FilteredStep& step) {
     const integrator::Model<double, Dim> model = model_of(now, next, contact);
     integrator::Simulation<double, Dim> simulation = simulation_at<Dim>(model, {}, how.halvings, how.least_layers);
     std::vector<FilteredStep::Piece> pieces;
     Position into_fixed{};
+    std::size_t breakpoints = step.breakpoints;
     integrator::Recording<double, Dim> recording;
     while (simulation.time() < model.window_length) {
       recording.clear();
@@ -118,9 +144,12 @@ class StepFilter {
         into_fixed[static_cast<std::size_t>(k)] -= books.of(integrator::ForceKind::contact).impulse[k];
       }
       pieces.push_back({now, integrator::world_lines<Dim>(recording, model.x.size())});
+      breakpoints += recording.size();
+      if (breakpoints > std::size_t{1} << 26) throw StepTooLong();
     }
     std::move(pieces.begin(), pieces.end(), std::back_inserter(step.pieces));
     step.deepest = std::max(step.deepest, simulation.certificates().deepest);
+    step.breakpoints = breakpoints;
     ++step.phases;
     for (std::size_t k = 0; k < 3; ++k) step.momentum_into_fixed[k] += into_fixed[k];
     state_ = simulation.snapshot();
@@ -166,6 +195,7 @@ class StepFilter {
   const StepContact& contact_;
   NearGaps<Dim>& gaps_;
   const integrator::Stop& stop_;
+  std::function<void(double)> progress_;
   std::vector<integrator::Vec<double, Dim>> from_, to_;
   integrator::Snapshot<double, Dim> state_;
 };

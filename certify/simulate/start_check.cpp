@@ -21,7 +21,8 @@ std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names
 }
 
 template <int Dim>
-std::string contact_at_start_of(const integrator::Scene& scene) {
+std::string contact_at_start_of(const integrator::Scene& scene, const std::atomic<bool>* stop,
+                                const std::optional<std::chrono::steady_clock::time_point>& deadline) {
   const integrator::BuiltScene<Dim> built = integrator::build_model<Dim>(scene);
   const std::vector<std::uint8_t> labels = labels_of<Dim>(built.model);
   const Exclusions exclusions = exclusions_of<Dim>(built.model);
@@ -30,6 +31,8 @@ std::string contact_at_start_of(const integrator::Scene& scene) {
   options.dimension = Dim;
   options.scripted = labels;
   options.exclusions = &exclusions;
+  options.stop = stop;
+  options.deadline = deadline;
   const WindowVerifier verifier(built.model.mesh, x, options);
   return contact_at_start(verifier, built.model.mesh, x, options, names_of(built.bodies));
 }
@@ -55,8 +58,10 @@ std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, c
                      result.contact_count(), result.initial_intersections);
 }
 
-std::string contact_at_start(const integrator::Scene& scene) {
-  return scene.dimension == 2 ? contact_at_start_of<2>(scene) : contact_at_start_of<3>(scene);
+std::string contact_at_start(const integrator::Scene& scene, const std::atomic<bool>* stop,
+                             std::optional<std::chrono::steady_clock::time_point> deadline) {
+  return scene.dimension == 2 ? contact_at_start_of<2>(scene, stop, deadline)
+                              : contact_at_start_of<3>(scene, stop, deadline);
 }
 
 }  // namespace noli

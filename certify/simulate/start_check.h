@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,7 @@ std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, c
                              WindowOptions options, const BodyNames& names);
 
 /// The same of a scene that is not going to run. Throws InputError as build_model does.
-std::string contact_at_start(const integrator::Scene& scene);
+std::string contact_at_start(const integrator::Scene& scene, const std::atomic<bool>* stop,
+                             std::optional<std::chrono::steady_clock::time_point> deadline);
 
 }  // namespace noli

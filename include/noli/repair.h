@@ -48,12 +48,13 @@ struct RepairRequest {
   FrameReading reading;                       ///< bodies are joined: the new frames are of one mesh
   std::string pattern;  ///< of the new frames, with one %d or %0Nd; its ending names the format: .ply, .obj, .vtu
   bool force = false;   ///< existing files of that pattern may be replaced or removed
-  bool resume = false;  ///< go on where an earlier repair with the same frames and options ended, however it did
+  bool resume =
+      false;  ///< continue an earlier repair of the same frames with the same options, also one that was killed
   std::optional<int> dimension;                 ///< as in VerifyRequest
-  int threads = 0;                              ///< of what decides; 0: all there are
+  int threads = 0;                              ///< threads of the exact decisions; 0: all there are
   bool points = false;                          ///< vertices that no cell refers to are particles
   std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
-  std::uint64_t fixed_first = 0;                ///< so many vertices, from the first, move as given
+  std::uint64_t fixed_first = 0;                ///< the first N vertices move as given
   std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
   /// "size": by area and length; "uniform"; else the name of a text file with a positive number for each vertex.
@@ -72,7 +73,7 @@ enum class RepairEnd : std::uint8_t {
   done,           ///< all frames are written
   start_touches,  ///< something meets in the first frame
   blocked,        ///< vertices that move as given pass through each other
-  undecided,      ///< no way was found for a step: `obstacle` says which features came too near for numbers to go on
+  undecided,  ///< no way was found for a step: `obstacle` may say which features came too close for double precision
   interrupted,
   out_of_time
 };
@@ -90,7 +91,7 @@ struct RepairedStep {
   std::uint32_t deepest = 0;    ///< the deepest layer that acted
 };
 
-/// How much a body was moved, in all steps.
+/// How much a body was moved, in the steps of this call.
 struct RepairedBody {
   std::string name;
   std::uint64_t moved = 0;      ///< vertices that did not end where they were given, counted anew in each step
@@ -104,6 +105,7 @@ struct RepairObstacle {
   FeaturePair kind = FeaturePair::vertex_face;
   std::array<VertexId, 4> vertices{};  ///< as in FeatureContact
   bool cells = false;                  ///< vertices[0] and [1] are cells, which intersect in the first frame
+  CellNames names = {};                ///< of these cells
 };
 
 struct RepairOutcome {
@@ -116,10 +118,11 @@ struct RepairOutcome {
   std::vector<RepairedBody> by_body;  ///< of bodies with names
   std::vector<FrameBody> bodies;      ///< where they are in the mesh; empty if frames have no bodies
   std::uint64_t fixed = 0;            ///< vertices that move as given
-  /// What fixed vertices took, in all steps: relative to the mean mass of a vertex, times length per step.
+  /// What fixed vertices took in the steps of this call: relative to the mean mass of a vertex, times length per step.
   Position momentum_into_fixed{};
   std::size_t frames = 0;    ///< that are written
   std::size_t inserted = 0;  ///< of these, between given ones
+  std::size_t as_given = 0;  ///< of these, with the positions that were given
   std::size_t copied = 0;    ///< of these, byte for byte the given files
   double thickness = 0;      ///< of the first layer, where the mesh is coarse
   double mean_edge = 0;      ///< of the first frame: a scale for distances

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::string_view good[] = {"no_contact", "proved",   "no_difference", "no_finding", "nothing_fails",
                                      "agreement",  "accepted", "same",          "holds"};
-constexpr std::string_view bad[] = {"contact",      "too_near", "not_finite", "unstable", "finding",
-                                    "disagreement", "refuted",  "rejected",   "differs",  "different"};
+constexpr std::string_view bad[] = {"contact",      "cannot_be", "too_near", "not_finite", "unstable", "finding",
+                                    "disagreement", "refuted",   "rejected", "differs",    "different"};
 constexpr std::string_view neutral[] = {"measured", "decided", "explained", "described", "report", "written"};
 
 bool among(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }

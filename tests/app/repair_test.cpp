@@ -133,10 +133,11 @@ TEST_F(Repair, MassesSayWhoGivesWay) {
     return std::abs(x[0][2]) + std::abs(x[1][2]) + std::abs(x[2][2]);  // of the lower triangle, which rests
   };
   EXPECT_GT(moved("uniform"), 100 * moved(heavy));
-  for (const char* wrong : {"1 1 1 1 1", "1 1 1 1 1 1 1", "1 1 1 1 1 0", "1 1 1 1 1 x", "1 1 1 1 1 inf"}) {
+  for (const char* wrong :
+       {"1 1 1 1 1", "1 1 1 1 1 1 1", "1 1 1 1 1 0", "1 1 1 1 1 x", "1 1 1 1 1 inf", "1 1 1 1 1 1e5"}) {
     const Process refused = run_noli(repair(frames, {"--force", "--masses", folder.write("wrong.txt", wrong)}));
     EXPECT_EQ(refused.exit_code, 3) << wrong;
-    EXPECT_NE(refused.err.find("wrong.txt: number "), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("wrong.txt: "), std::string::npos) << refused.err;
   }
 }
 
@@ -190,6 +191,11 @@ TEST_F(Repair, ThreadsChangeNoByte) {
   }
 }
 
+std::string replaced_in(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
 /// All that a repair writes, by name.
 std::map<std::string, std::string> content_of(const std::string& folder) {
   std::map<std::string, std::string> files;
@@ -216,6 +222,97 @@ TEST_F(Repair, WhatWasKilledAnywhereResumesToTheSameBytes) {
   const Process other = run_noli(repair(frames, {"--resume", "--restitution", "0.5"}));
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_NE(other.err.find("with other options"), std::string::npos) << other.err;
+  // Another content of the same size is another repair too.
+  folder.write("in_1.ply", replaced_in(read_text(frames[1]), "0.5", "0.7"));
+  EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 3);
+}
+
+TEST_F(Repair, ResumeTouchesNoFilesThatAreNoRepair) {
+  const Words frames = falling({1, -0.5});
+  fs::create_directory(folder.path("out"));
+  folder.write("out/000.ply", "mine");
+  folder.write("out/007.ply", "mine too");
+  const Process process = run_noli(repair(frames, {"--resume"}));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_EQ(read_text(out(0)), "mine");
+  EXPECT_EQ(read_text(out(7)), "mine too");
+  fs::remove(out(0));
+  fs::remove(out(7));
+  folder.write("out/times.csv", "my own table");
+  EXPECT_EQ(run_noli(repair(frames)).exit_code, 3);
+  EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 3);
+  EXPECT_EQ(read_text(folder.path("out/times.csv")), "my own table");
+}
+
+TEST_F(Repair, LinksToWhatIsReadAreNotWrittenThrough) {
+  const Words frames = falling({1, -0.5});
+  fs::create_directory(folder.path("out"));
+  for (std::size_t k = 0; k < 2; ++k) fs::create_symlink(frames[k], out(k));
+  const std::string before = read_text(frames[1]);
+  EXPECT_EQ(run_noli(repair(frames, {"--force"})).exit_code, 0);
+  EXPECT_EQ(read_text(frames[1]), before);
+  EXPECT_FALSE(fs::is_symlink(out(1)));
+  // Read by their own names, they are refused.
+  fs::remove_all(folder.path("out"));
+  fs::create_directory(folder.path("out"));
+  for (std::size_t k = 0; k < 2; ++k) fs::create_symlink(frames[k], out(k));
+  const Process refused = run_noli(repair({out(0), out(1)}, {"--force"}));
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("is read"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_text(frames[1]), before);
+}
+
+TEST_F(Repair, AFrameThatLeavesThePlaneIsAnError) {
+  const auto flat = [&](const char* name, double z) {
+    return folder.write(
+        name, ply_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, z}, {3, 0, z}, {2, 1, z}}, {{0, 1, 2}, {3, 4, 5}}));
+  };
+  const Words frames = {flat("p_0.ply", 0), flat("p_1.ply", 0), flat("p_2.ply", 5)};
+  const Process process = run_noli(repair(frames));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("leaves the plane"), std::string::npos) << process.err;
+  EXPECT_EQ(run_noli(repair(frames, {"--force", "--dimension", "3"})).exit_code, 0);
+}
+
+TEST_F(Repair, WhatDoublesCannotKeepApartIsUndecided) {
+  // A unit is the last bit of these coordinates: there is nothing between the triangle and the floor.
+  const auto frame = [&](const char* name, double above) {
+    const double z = 0x1p52;
+    return folder.write(
+        name, ply_text({{0, 0, z}, {9, 0, z}, {0, 9, z}, {1, 1, z + above}, {2, 1, z + above}, {1, 2, z + above}},
+                       {{0, 1, 2}, {3, 4, 5}}));
+  };
+  const Process process = run_noli(repair({frame("f_0.ply", 1), frame("f_1.ply", -1)}, {"--fixed-first", "3"}));
+  EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+  EXPECT_TRUE(process.verdict_line().starts_with("UNDECIDED  0 of 1 steps repaired; ")) << process.out;
+}
+
+TEST_F(Repair, FramesAreInsertedWhereStraightLinesWouldTouch) {
+  const std::string made = folder.path("shot");
+  fs::create_directory(made);
+  std::string first;
+  for (int k = 0; k < 4; ++k) {
+    // A dart flies past the rim of a plate, which stops one of its corners.
+    const double z = k < 2 ? 1 - 0.5 * k : -1.5 * k;
+    folder.write(fmt::format("shot/{}.ply", k),
+                 ply_text({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}, {1.1, 1, z + 0.1}, {-6, 1, z + 1}},
+                          {{0, 1, 2}, {3, 4, 5}}));
+  }
+  const Json json = json_of(repair({made}, {"--fixed-first", "3", "--no-check"}), 0);
+  EXPECT_EQ(json["verdict"], "no_contact");
+  EXPECT_EQ(json["frames"], 4 + json["inserted"].get<int>());
+  const std::string table = read_text(json["times"].get<std::string>());
+  EXPECT_EQ(json["inserted"] > 0, table.find(",inserted\n") != std::string::npos);
+  EXPECT_EQ(verify_out().exit_code, 0);
+}
+
+TEST_F(Repair, AVtuPatternGetsASeries) {
+  Words words = repair(falling({1, -0.5}));
+  words[2] = folder.path("vtk/sheet_%03d.vtu");
+  EXPECT_EQ(run_noli(words).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder.path("vtk/sheet.pvd")));
+  EXPECT_TRUE(fs::exists(folder.path("vtk/sheet_times.csv")));
+  EXPECT_EQ(run_noli({"verify", folder.path("vtk/sheet.pvd")}).exit_code, 0);
 }
 
 TEST_F(Repair, InThePlaneThirdCoordinatesStay) {
@@ -231,11 +328,11 @@ TEST_F(Repair, InThePlaneThirdCoordinatesStay) {
   EXPECT_EQ(verify_out().exit_code, 0);
 }
 
-TEST_F(Repair, ATimeLimitKeepsWhatIsWritten) {
+TEST_F(Repair, ATimeLimitIsHeard) {
   const std::string large = folder.write("large.ply", sheets(400'000, 1));
   const Process process = run_noli(repair({large, large}, {"--order", "given", "--time-limit", "50ms"}));
   EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
-  EXPECT_EQ(process.out.find("PROVED"), std::string::npos) << process.out;
+  EXPECT_TRUE(process.verdict_line().starts_with("UNDECIDED")) << process.out << process.err;
 }
 
 TEST_F(Repair, TheTableSaysWhichFrameIsWhen) {

@@ -91,6 +91,16 @@ bool all_z_equal(std::span<const Position> positions) {
   return std::all_of(positions.begin(), positions.end(), [&](const Position& x) { return x[2] == positions[0][2]; });
 }
 
+bool in_one_plane(std::span<const Position> a, std::span<const Position> b) {
+  return all_z_equal(a) && all_z_equal(b) && (a.empty() || a[0][2] == b[0][2]);
+}
+
+void require_one_plane(std::span<const Position> a, std::span<const Position> b, const std::string& name_b) {
+  if (in_one_plane(a, b)) return;
+  throw InputError(name_b, "",
+                   "leaves the plane of the frames before; expected the same z everywhere (see --dimension)");
+}
+
 std::string conversion_advice(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   const auto* const found = std::ranges::find(advices, extension, &Advice::extension);

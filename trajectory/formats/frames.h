@@ -30,6 +30,12 @@ void require_same_mesh(const Mesh& expected, const std::filesystem::path& expect
 /// in two dimensions. True for no positions.
 bool all_z_equal(std::span<const Position> positions);
 
+/// Whether all z of two frames are equal.
+bool in_one_plane(std::span<const Position> a, std::span<const Position> b);
+
+/// Throws InputError, about the file of b, for two frames that are not in one plane.
+void require_one_plane(std::span<const Position> a, std::span<const Position> b, const std::string& name_b);
+
 /// ".ply": in lower case.
 std::string extension_of(const std::filesystem::path& path);
 

@@ -11,7 +11,7 @@
 // of D nearest to the origin is one. It is the nearest point of a hull of at most as many points as there are
 // dimensions. So it is enough to try the directions given by one, two or three points of D.
 //
-// It takes some 10 ms for 18 differences.
+// Doubles rule out most of these directions before exact arithmetic looks at them.
 #pragma once
 
 #include <array>

@@ -83,7 +83,8 @@ TEST_F(Simulate, CellsThatIntersectAtTheBeginningAreNamed) {
       << process.err;
   const Process explained = run_noli({"explain", file});
   EXPECT_EQ(explained.exit_code, 0);
-  EXPECT_NE(explained.out.find("begins in contact, which no run does: face deck[0]-deck[1]-deck[2] intersects"),
+  EXPECT_NE(explained.out.find(
+                "begins in contact, and `noli simulate` will refuse it: face deck[0]-deck[1]-deck[2] intersects"),
             std::string::npos)
       << explained.out;
 }
