@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,14 +59,11 @@ std::vector<OutputFile> outputs_of(const RepairArguments& arguments) {
     if (*request.proof == "-") throw UsageError("--proof -: a proof is not text; expected the name of a file");
     files.push_back({"--proof", *request.proof, true});
   }
-  for (const std::filesystem::path& beside : files_beside_repaired(request.pattern)) {
-    const auto is_it = [&](const std::filesystem::path& other) {
-      std::error_code error;
-      return std::filesystem::weakly_canonical(other, error) == std::filesystem::weakly_canonical(beside, error);
-    };
-    if (is_it(arguments.results.json.value_or("-")) || (request.proof && is_it(*request.proof))) {
-      throw UsageError(beside.string() + ": is written beside the frames; expected another name for the output");
-    }
+  for (const auto& [option, path] : {std::pair("--json", arguments.results.json.value_or("-")),
+                                     std::pair("--proof", request.proof ? request.proof->string() : "-")}) {
+    if (path == "-" || !is_of_repaired(path, request.pattern)) continue;
+    throw UsageError(
+        fmt::format("{} {}: is a frame of -o, or written beside them; expected another name", option, path));
   }
   return files;
 }

@@ -56,6 +56,11 @@
 
 namespace noli::certificates {
 
+/// A vertex is so near a wall that doubles know no time until which it stays beyond it.
+struct WallFails : std::runtime_error {
+  WallFails() : std::runtime_error("certificates: a wall fails again at once") {}
+};
+
 template <int Dim, class Host>
 class Cells {
  public:
@@ -391,6 +396,7 @@ class Cells {
 
   [[gnu::noinline]] void settle(double t) {
     for (std::size_t done = 0; done < work_.size(); ++done) {
+      end_if_stopped();
       waiting_[work_[done]] = false;
       if (slice_due_ <= t) continue;
       require_progress(done + 1, tubes_.size());
@@ -513,7 +519,7 @@ class Cells {
   Plan<Dim> without_room(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now,
                          double until) const {
     for (;; until = now.t + 0.5 * (until - now.t)) {
-      if (!(until > now.t)) throw std::runtime_error("certificates: a wall fails again at once");
+      if (!(until > now.t)) throw WallFails();
       const Plan<Dim> plan{now, 0, until};
       const bool beyond_all = std::ranges::all_of(walls, [&](Side side) {
         return decisions_.stays_beyond(plan, nears_[side.near()].slab, side.of_a(), now.t);

@@ -42,8 +42,7 @@ class BodyNames {
   std::string vertex(VertexId v) const;
   /// "vertex a[0]", "edge a[0]-a[1]" or the like. Precondition: one to three vertices.
   std::string feature(std::span<const VertexId> vertices) const;
-  /// "face a[17]" if the body counts its faces, else "cell 17 (a)"; "cell 17" without bodies. Precondition: it is a cell
-  /// of the mesh.
+  /// "face a[17]" if the body counts its faces, else "cell 17 (a)"; "cell 17" without bodies. The mesh has to have it.
   std::string cell(const Mesh& mesh, std::uint32_t cell) const;
   /// Both features of a pair, with a word between them. `vertices`: those of the first feature come first.
   std::string pair(FeaturePair kind, std::span<const VertexId> vertices, const std::string& between) const;

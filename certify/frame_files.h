@@ -68,13 +68,14 @@ class FrameFiles {
   std::uint64_t removed() const { return removed_; }  ///< by finish()
   /// A file beside the frames, named like them without the number: "cloth_times.csv" of "cloth_%03d.ply".
   std::filesystem::path beside(const std::string& what) const { return pattern_.beside(what); }
+  /// Where the series of a .vtu pattern is, or would be.
+  std::filesystem::path series_path() const;
   const std::string& series() const { return series_; }  ///< the file for ParaView that finish() wrote; empty: none
 
  private:
   std::filesystem::path free_name() const;
   void find_earlier(const std::string& pattern, Existing existing);
   bool has_series() const { return pattern_.after.ends_with(".vtu"); }
-  std::filesystem::path series_path() const;
 
   FramePattern pattern_;
   std::vector<std::filesystem::path> earlier_;

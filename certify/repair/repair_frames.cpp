@@ -10,6 +10,7 @@
 
 #include <noli/errors.h>
 #include <noli/sequence.h>
+#include "certificates/cells.h"
 #include "certify/groups.h"
 #include "certify/json.h"
 #include "certify/process/hdf5_frames.h"
@@ -317,6 +318,9 @@ class Repair {
       obstacle.time = limit.time;
       obstacle.kind = limit.pair.kind;
       std::copy_n(limit.pair.vertices.begin(), limit.pair.size(), obstacle.vertices.begin());
+      throw Ended{RepairEnd::undecided};
+    } catch (const certificates::WallFails&) {
+      outcome_.notes.push_back(fmt::format("step {}: something is too close for double precision", number()));
       throw Ended{RepairEnd::undecided};
     } catch (const StepTooLong& error) {
       outcome_.notes.push_back(fmt::format("step {}: {}", number(), error.what()));

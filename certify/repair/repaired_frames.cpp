@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -37,6 +38,18 @@ std::vector<std::filesystem::path> files_beside_repaired(const std::string& patt
   return {parsed.beside("times.csv"), parsed.beside("repair.json")};
 }
 
+bool is_of_repaired(const std::filesystem::path& file, const std::string& pattern) {
+  std::error_code error;
+  const auto place = [&error](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(path.is_absolute() ? path : std::filesystem::current_path() / path, error);
+  };
+  const FramePattern parsed = parse_pattern(pattern);
+  const auto number = parsed.number(parsed.folder() / file.filename());
+  if (number && place(parsed.file(*number)) == place(file)) return true;
+  return std::ranges::any_of(files_beside_repaired(pattern),
+                             [&](const auto& path) { return place(path) == place(file); });
+}
+
 RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& source)
     : request_(request),
       source_(source),
@@ -51,12 +64,23 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
     if (!files_.may_be(frame)) continue;
     throw UsageError("-o " + request.pattern + ": " + frame.string() + " is read; choose another folder or name");
   }
-  for (const auto& beside : {table_, state_}) {
+  for (const auto& beside : {table_, state_, files_.series_path()}) {
+    if (is_read(beside)) {
+      throw UsageError("-o " + request.pattern + ": " + beside.string() + " is read; choose another folder or name");
+    }
     const auto status = std::filesystem::symlink_status(beside);
     if (status.type() == std::filesystem::file_type::not_found || request.force || resumes_) continue;
     throw UsageError("-o " + request.pattern + ": " + beside.string() +
                      " exists already; choose another name, or pass --force");
   }
+}
+
+bool RepairedFrames::is_read(const std::filesystem::path& file) const {
+  std::vector<std::filesystem::path> read = request_.frames;
+  if (request_.ignore) read.push_back(*request_.ignore);
+  read.emplace_back(request_.masses);
+  std::error_code error;
+  return std::ranges::any_of(read, [&](const auto& path) { return std::filesystem::equivalent(path, file, error); });
 }
 
 /// Threads, limits, the proof and the checker do not decide what is written.

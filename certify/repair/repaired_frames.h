@@ -4,7 +4,7 @@
 // its rows in the table, so a repair that was killed can go on behind the last complete step.
 //
 // Files beside the frames, with the name of the pattern before them ("cloth_times.csv" of "cloth_%03d.ply")
-//   times.csv     a row for each frame: file, time in steps, the given frame of that time, and what it is: "copied" byte
+//   times.csv     a row for each frame: file, time in steps, the given frame of that time, what it is: "copied" byte
 //                 for byte, "given" (the same numbers), "repaired", "inserted"
 //   repair.json   a hash of all that decides what is written: the given files, the options, the program
 #pragma once
@@ -36,7 +36,7 @@ class RepairedFrames {
   /// InputError for a frame of another mesh.
   std::optional<Last> begin(const Mesh& mesh);
 
-  /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and has the bytes of its file if that holds
+  /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and gets the bytes of its file if that has
   /// one frame in the format of the new ones. Throws std::system_error.
   void write(double time, const Frame& frame, bool given);
   /// The step that was written last is complete. Throws WriteError.
@@ -54,6 +54,7 @@ class RepairedFrames {
   };
 
   bool has_own_file(std::size_t k) const;
+  bool is_read(const std::filesystem::path& file) const;
   std::string fingerprint() const;
   bool is_there() const;
   void keep_complete_steps(std::string& table, std::vector<double>& times);
@@ -71,5 +72,7 @@ class RepairedFrames {
 
 /// The files beside the frames of a pattern. Throws UsageError for a pattern without a number.
 std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern);
+/// Whether a file would be one of these frames, or one beside them.
+bool is_of_repaired(const std::filesystem::path& file, const std::string& pattern);
 
 }  // namespace noli

@@ -10,7 +10,7 @@
 //   class    of a vertex: sizes that differ by less than a factor of 8, the greatest first
 //   eta_c    the least size among the classes up to c. The first layer of two features has that of the greater class of
 //            their vertices
-//   v        of a class: the greatest speed of its vertices, seen from their mean velocity; of the first class, in which
+//   v        of a class: the greatest speed of its vertices, seen from the mean velocity; of the first class, in which
 //            few are near anything, the root mean square. At least eta per step
 //   m, M     least mass of free vertices; greatest of the class
 //   r(1)     M (v / eta)^2: a vertex of speed v is stopped within a thickness. Faster ones go deeper, where layers are

@@ -13,7 +13,7 @@
 //   x_k     the repaired one. x_0 = y_0; each step goes from x_k towards y_(k+1)
 //   step    takes one unit of time; steps count from 1
 //
-// A step whose straight lines touch nothing ends in y_(k+1). In any other step the vertices are masses with the velocities
+// A step whose straight lines touch nothing ends in y_(k+1). In any other step vertices are masses with the velocities
 // y_(k+1) - x_k, on which contact alone acts, by the method of Harmon et al., "Asynchronous Contact Mechanics" (2009):
 // a velocity filter. A vertex that nothing strikes ends in y_(k+1), bit for bit. Where the straight lines from x_k to
 // x_(k+1) touch although the motion in between does not, frames are inserted.
@@ -21,8 +21,8 @@
 // Thickness, stiffness and step of the layers of contact decide how far vertices are moved and how long that takes,
 // never whether the answer is true: every step that is written has been decided in exact arithmetic.
 //
-// Units: those of the files; times in steps. Errors: as run_repair says. Thread safety: any number of repairs may run at
-// once, each with its own pattern and stop; nothing is printed.
+// Units: those of the files; times in steps. Errors: as run_repair says. Thread safety: any number of repairs may run
+// at once, each with its own pattern and stop; nothing is printed.
 #pragma once
 
 #include <array>

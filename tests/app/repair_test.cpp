@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -260,6 +261,38 @@ TEST_F(Repair, LinksToWhatIsReadAreNotWrittenThrough) {
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("is read"), std::string::npos) << refused.err;
   EXPECT_EQ(read_text(frames[1]), before);
+}
+
+TEST_F(Repair, OtherOutputsAreNoFramesAndNoInputsAreReplaced) {
+  const Words frames = falling({1, -0.5});
+  for (const char* name : {"out/001.ply", "out/times.csv", "out/repair.json", "out/../out/000.ply"}) {
+    for (const char* option : {"--json", "--proof"}) {
+      const Process refused = run_noli(repair(frames, {option, folder.path(name)}));
+      EXPECT_EQ(refused.exit_code, 3) << option << ' ' << name;
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder.path("out/000.ply")));
+  fs::create_directory(folder.path("out"));
+  const std::string masses = folder.write("out/times.csv", "1 1 1 1 1 1\n");
+  EXPECT_EQ(run_noli(repair(frames, {"--force", "--masses", masses})).exit_code, 3);
+  EXPECT_EQ(read_text(masses), "1 1 1 1 1 1\n");
+}
+
+TEST_F(Repair, AFaceWithTwoEqualVerticesHearsItsLimit) {
+  const auto frame = [&](const char* name, double s, double z) {
+    return folder.write(name, ply_text({{-0.0195 * s, 1.0277 * s, 0},
+                                        {0.9958 * s, 0.0039 * s, 0.013 * s},
+                                        {-0.0195 * s, 1.0277 * s, 0},
+                                        {0.0332 * s, 0.016 * s, z},
+                                        {0.9622 * s, 0.0184 * s, 1.095 * z},
+                                        {0.0205 * s, 0.9828 * s, z}},
+                                       {{0, 1, 2}, {3, 4, 5}}));
+  };
+  const Words frames = {frame("d_0.ply", 1, 0.2), frame("d_1.ply", -0.5, -0.1)};
+  const auto begin = std::chrono::steady_clock::now();
+  const Process process = run_noli(repair(frames, {"--fixed-first", "4", "--threads", "1", "--time-limit", "2s"}));
+  EXPECT_TRUE(process.exit_code == 0 || process.exit_code == 2) << process.exit_code << process.out << process.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST_F(Repair, AFrameThatLeavesThePlaneIsAnError) {
