@@ -41,6 +41,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <queue>
 #include <stdexcept>
 #include <utility>
@@ -518,8 +519,10 @@ class Cells {
   /// A plan of radius 0 for a vertex so near a wall that doubles cannot tell whether it stays beyond it.
   Plan<Dim> without_room(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now,
                          double until) const {
-    for (;; until = now.t + 0.5 * (until - now.t)) {
-      if (!(until > now.t)) throw WallFails();
+    // Half of the last bit of a time rounds to that bit again, or to nothing.
+    for (double last = std::numeric_limits<double>::infinity();; until = now.t + 0.5 * (until - now.t)) {
+      if (!(until > now.t && until < last)) throw WallFails();
+      last = until;
       const Plan<Dim> plan{now, 0, until};
       const bool beyond_all = std::ranges::all_of(walls, [&](Side side) {
         return decisions_.stays_beyond(plan, nears_[side.near()].slab, side.of_a(), now.t);
