@@ -520,8 +520,8 @@ class Cells {
   Plan<Dim> without_room(const Plan<Dim>& outer, std::span<const Side> walls, const Line<Dim>& now,
                          double until) const {
     // Half of the last bit of a time rounds to that bit again, or to nothing.
-    for (double last = std::numeric_limits<double>::infinity();; until = now.t + 0.5 * (until - now.t)) {
-      if (!(until > now.t && until < last)) throw WallFails();
+    for (double last = now.t;; until = now.t + 0.5 * (until - now.t)) {
+      if (!(until > now.t) || until == last) throw WallFails();
       last = until;
       const Plan<Dim> plan{now, 0, until};
       const bool beyond_all = std::ranges::all_of(walls, [&](Side side) {
