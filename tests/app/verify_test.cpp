@@ -96,7 +96,8 @@ TEST_F(Verify, SaysWhenAFacePiercesAnotherThroughout) {
   EXPECT_EQ(json["verdict"], "contact");
   EXPECT_EQ(json["contacts"], vertex_face_contacts(0));
   EXPECT_EQ(json["initial_intersections"], 1);
-  EXPECT_EQ(json["initial_reports"]["intersections"], Json::parse(R"([{"cells": [0, 1], "step": 1}])"));
+  EXPECT_EQ(json["initial_reports"]["intersections"],
+            Json::parse(R"([{"cells": [0, 1], "names": ["cell 0", "cell 1"], "step": 1}])"));
   EXPECT_TRUE(json["first"].is_null());
 }
 
