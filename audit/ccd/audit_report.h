@@ -22,8 +22,8 @@ std::string audit_svg(const AuditOutcome& outcome);
 /// How a library is called in tables: the name of its file, without folders unless two are then the same.
 std::string audit_name(const AuditOutcome& outcome, const std::filesystem::path& library);
 
-/// What a library wrote to its standard error: at most twenty lines, from the last error of a sanitizer on; where there
-/// is none, the last ones. `who`: the library, in words.
+/// What a library wrote to its standard error, at most twenty lines: from a sanitizer's last error on or, without one,
+/// the last lines. `who`: the library, in words.
 std::string said_text(const std::string& who, const std::string& said);
 
 /// How far times are off, for JSON.

@@ -34,7 +34,7 @@ namespace noli {
 /// 1/64. Vertices without either have 1.
 std::vector<double> masses_by_size(const Mesh& mesh, std::span<const Position> x);
 
-/// The mean length of all edges of cells; 0 where there are none.
+/// The mean length of all edges of cells; 0 without edges.
 double mean_edge(const Mesh& mesh, std::span<const Position> x);
 
 class StepContact {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests `noli repair`: what is free stays as it is, what touches is moved until nothing does, what cannot be is told.
+// Tests `noli repair`: free motions stay as they are, others are moved until nothing touches, and impossible ones are
+// reported with the features that meet.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
