@@ -6,6 +6,7 @@
 //            made it, which knows springs and gravity, and no contact. The ball's vertices come first; the program
 //            prints how many there are
 // Coordinates are in metres. Only +, -, *, / and sqrt are used, so the bytes are the same everywhere.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -121,7 +122,8 @@ std::vector<std::array<int, 2>> springs_of(int first, int n) {
 }
 
 void drape(int n, const std::string& folder) {
-  constexpr int frames = 60, sweeps = 30;
+  constexpr int frames = 60;
+  const int sweeps = std::max(30, n * n / 30);  // a pull goes one square further in each: finer cloth needs more
   constexpr double dt = 1.0 / 60, gravity = 9.81;
   Mesh mesh = ball(4);
   const std::size_t size = mesh.points.size();

@@ -107,20 +107,24 @@ std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, st
   return masses;
 }
 
-/// The cells that move as given.
-Mesh fixed_cells(const Mesh& mesh, std::span<const std::uint8_t> fixed) {
-  Mesh part;
-  part.vertex_count = mesh.vertex_count;
-  const auto is_fixed = [&](VertexId v) { return fixed[v] != 0; };
-  const auto take = [&](const auto& cells, auto& into) {
-    for (const auto& cell : cells) {
-      if (std::ranges::all_of(cell, is_fixed)) into.push_back(cell);
-    }
+/// What moves as given: of each cell the vertices that do, as a cell. An edge of two cells is there twice, as a feature
+/// of one may meet a feature of the other.
+Mesh fixed_parts(const Mesh& mesh, std::span<const std::uint8_t> fixed) {
+  Mesh parts;
+  parts.vertex_count = mesh.vertex_count;
+  const auto take = [&](const auto& cell) {
+    std::vector<VertexId> part;
+    std::ranges::copy_if(cell, std::back_inserter(part), [&](VertexId v) { return fixed[v] != 0; });
+    if (part.size() == 3) parts.faces.push_back({part[0], part[1], part[2]});
+    if (part.size() == 2) parts.edges.push_back({part[0], part[1]});
+    if (part.size() == 1) parts.points.push_back(part[0]);
   };
-  take(mesh.faces, part.faces);
-  take(mesh.edges, part.edges);
-  std::ranges::copy_if(mesh.points, std::back_inserter(part.points), is_fixed);
-  return part;
+  for (const auto& face : mesh.faces) take(face);
+  for (const auto& edge : mesh.edges) take(edge);
+  for (const VertexId point : mesh.points) take(std::array{point});
+  std::ranges::sort(parts.points);
+  parts.points.erase(std::unique(parts.points.begin(), parts.points.end()), parts.points.end());
+  return parts;
 }
 
 template <int Dim>
@@ -155,8 +159,8 @@ class Repair {
     gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions());
     filter_.emplace(mesh_, mass_, fixed_, *contact_, *gaps_, stop_, [this](double part) { tell(part); });
     verifier_.emplace(mesh_, options(false, true));
-    Mesh fixed_part = fixed_cells(mesh_, fixed_);
-    if (fixed_part.cell_count() > 1) fixed_verifier_.emplace(std::move(fixed_part), options(false, false));
+    Mesh parts = fixed_parts(mesh_, fixed_);
+    if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
     outcome.cells = mesh_.cell_count();
     outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
     outcome.thickness = contact_->greatest_bound();
