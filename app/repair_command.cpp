@@ -148,6 +148,13 @@ Command add_repair(CLI::App& app) {
       ->type_name("MU")
       ->group(group::question);
   command
+      ->add_option("--spread", request.spread,
+                   "What contact moves takes its surroundings along, over about so many edges; 0: contact alone")
+      ->check(whole_number(0, 100))
+      ->capture_default_str()
+      ->type_name("EDGES")
+      ->group(group::question);
+  command
       ->add_option("--ignore", request.ignore,
                    "Groups of vertices that may pass through each other, a JSON file as for noli verify")
       ->type_name("GROUPS.json")

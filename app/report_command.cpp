@@ -21,6 +21,7 @@
 #include "certify/runs/run_folder.h"
 #include "report/page/report_inputs.h"
 #include "report/page/report_page.h"
+#include "report/page/report_repair.h"
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
 #include "report/page/report_verdict.h"
@@ -42,11 +43,12 @@ constexpr const char* report_footer =
     "again.\n"
     "\n"
     "Inputs come in any order: one run; results that noli wrote with --json; the frames that a result of "
-    "`noli verify` is about; pictures (.svg).\n"
+    "`noli verify` is about; pictures (.svg). A result of `noli repair` brings its frames, given and repaired.\n"
     "Examples:\n"
     "  noli verify a.ply b.ply --json ab.json; noli report ab.json a.ply b.ply -o ab.html\n"
     "  noli report runs/cloth -o cloth.html --open\n"
     "  noli verify runs/cloth --json cloth.json; noli report runs/cloth cloth.json -o cloth.html\n"
+    "  noli report mended.json -o mended.html    both motions of noli repair --json mended.json\n"
     "  noli report audit.json audit.svg -o audit.html\n";
 
 constexpr double most_rate = 1000;  ///< frames a second
@@ -92,8 +94,8 @@ Inputs sorted(const std::vector<fs::path>& paths) {
   return inputs;
 }
 
-/// A result of verify, about what is shown.
-struct VerifyResult {
+/// A result about the motion that is shown.
+struct ResultFile {
   fs::path path;
   Json json;
 };
@@ -122,6 +124,7 @@ class Report {
     read_results();
     put_frames_in_order();
     if (inputs_.run) note_if_being_written(*inputs_.run);
+    if (repaired_) put_repair();
     if (inputs_.run) put_run();
     if (!inputs_.frames.empty()) put_frames();
     if (verified_) put_verdict_of_verify();
@@ -141,7 +144,12 @@ class Report {
       Json result = report::read_result(path);
       if (report::is_of_verify(result)) {
         if (verified_) throw UsageError(path.string() + ": expected at most one result of noli verify");
-        verified_ = VerifyResult{path, std::move(result)};
+        verified_ = ResultFile{path, std::move(result)};
+        continue;
+      }
+      if (report::is_of_repair(result)) {
+        if (repaired_) throw UsageError(path.string() + ": expected at most one result of noli repair");
+        repaired_ = ResultFile{path, std::move(result)};
         continue;
       }
       report_.page["results"].push_back(
@@ -171,6 +179,7 @@ class Report {
   void put_other_words() {
     for (const Json& other : report_.page["results"]) {
       const Json& result = other["result"];
+      if (report::is_of_repair(result)) continue;  // is at the head already
       if (!result.contains("verdict") || !result["verdict"].is_string()) continue;
       const auto word = result["verdict"].get<std::string>();
       report::take_word(word, report_);
@@ -204,6 +213,18 @@ class Report {
     report_run(*inputs_.run, limits, report_);
   }
 
+  void put_repair() {
+    const auto& [path, result] = *repaired_;
+    if (verified_ || inputs_.run || !inputs_.frames.empty()) {
+      throw UsageError(path.string() + ": a page about a repair shows the frames that it names; expected no others");
+    }
+    ProgressBars bars;
+    report::ReportLimits limits = arguments_.limits;
+    limits.progress = [&](double share) { bars.show("report", share); };
+    report::report_repair(result, path, limits, report_);
+    if (!has_title()) report_.page["title"] = path.stem().string();
+  }
+
   void put_frames() {
     if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
     const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
@@ -214,7 +235,7 @@ class Report {
                        fmt::format("is about {} {}, but {} frames were given", steps.count,
                                    steps.run ? "windows of a run" : "frames", count));
     }
-    const report::ResultInputs about(verified_->json, verified_->path);
+    const report::ResultInputs about(verified_->json.value("inputs", Json::array()), verified_->path);
     for (std::size_t k = 0; k < count; ++k) frames->look_at(k);
     about.require_files(frames->facts());
     report::report_frames(*frames, {steps.at_rest, steps.flat}, arguments_.limits, report_);
@@ -224,7 +245,8 @@ class Report {
   /// As the result says, unless told otherwise.
   FrameReading reading() const {
     try {
-      FrameReading reading = report::reading_of(verified_->json);
+      FrameReading reading = report::reading_of(verified_->json.value("inputs", Json::array()),
+                                                verified_->json.at("statement").value("bodies", Json::array()));
       if (!arguments_.reading.keys.empty()) reading.keys = arguments_.reading.keys;
       return reading;
     } catch (const Json::exception&) {
@@ -242,7 +264,7 @@ class Report {
                          fmt::format("is about {} {}, but the run has {} windows", steps.count,
                                      steps.run ? "windows" : "frames", windows));
       }
-      report::ResultInputs(json, path).require_run(*inputs_.run);
+      report::ResultInputs(json.value("inputs", Json::array()), path).require_run(*inputs_.run);
     }
     report::put_verdict(json, path, report_);
     if (!has_title()) report_.page["title"] = path.stem().string();
@@ -257,7 +279,7 @@ class Report {
 
   const ReportArguments& arguments_;
   Inputs inputs_;
-  std::optional<VerifyResult> verified_;
+  std::optional<ResultFile> verified_, repaired_;
   report::ReportPage report_;
 };
 

@@ -8,6 +8,7 @@
 #include <noli/errors.h>
 #include "certify/body_names.h"
 #include "certify/contact_report.h"
+#include "report/input_report.h"
 #include "trajectory/text.h"
 
 namespace noli::report {
@@ -38,11 +39,24 @@ Json bodies_json(const RepairOutcome& outcome) {
     const RepairedBody& moved = outcome.by_body[i];
     const FrameBody& body = outcome.bodies[i];
     list.push_back({{"name", body.name},
+                    {"still", body.still},
                     {"first_vertex", body.first_vertex},
                     {"vertices", body.vertices},
                     {"moved", moved.moved},
                     {"largest", moved.largest},
                     {"rms", moved.rms}});
+  }
+  return list;
+}
+
+Json outputs_json(const RepairOutcome& outcome) {
+  Json list = Json::array();
+  for (const RepairedFrame& frame : outcome.written) {
+    const FrameFacts& facts = frame.facts;
+    Json json = {{"file", facts.file}, {"time", frame.time}, {"what", frame.what}};
+    json["bytes"] = facts.looked_at ? Json(facts.bytes) : Json(nullptr);
+    json["sha256"] = facts.looked_at ? Json(hex(facts.sha256)) : Json(nullptr);
+    list.push_back(std::move(json));
   }
   return list;
 }
@@ -126,15 +140,26 @@ std::string repair_place(const RepairOutcome& outcome) {
   return "";
 }
 
-std::string repair_advice(const RepairOutcome& outcome) {
+/// Contact alone tears a mesh where a body went far into it.
+bool is_deep(const RepairOutcome& outcome) {
+  constexpr double edges = 2;
+  return !outcome.changed.empty() && largest_change(outcome)->largest > edges * outcome.mean_edge;
+}
+
+std::string repair_advice(const RepairRequest& request, const RepairOutcome& outcome) {
+  const std::string spread =
+      request.spread == 0 && is_deep(outcome)
+          ? "--spread 5 lets what contact moves take its surroundings along, and is often faster."
+          : "";
   switch (outcome.end) {
     case RepairEnd::done:
-      return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : "";
+      return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : spread;
     case RepairEnd::start_touches:
       return "separate them in the first frame, or leave them out with --ignore: they may then pass through each "
              "other.";
     case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
-    case RepairEnd::undecided: return "try another --thickness or --restitution, or let fewer vertices be fixed.";
+    case RepairEnd::undecided:
+      return spread.empty() ? "try another --thickness or --restitution, or let fewer vertices be fixed." : spread;
     case RepairEnd::interrupted:
     case RepairEnd::out_of_time: return "--resume continues after the last complete step.";
   }
@@ -163,6 +188,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["thickness"] = outcome.thickness;
   json["restitution"] = request.restitution;
   json["friction"] = request.friction;
+  json["spread"] = request.spread;
   json["mean_edge"] = outcome.mean_edge;
   json["steps"] = outcome.steps;
   json["steps_before"] = outcome.steps_before;
@@ -182,6 +208,8 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
                             : Json(nullptr);
   const bool proof = request.proof && outcome.verified && outcome.verified->proof_begun;
   json["proof"] = proof ? Json(request.proof->string()) : Json(nullptr);
+  json["inputs"] = inputs_json(outcome.inputs);
+  json["outputs"] = outputs_json(outcome);
   json["notes"] = outcome.notes;
   json["timing"] = {{"seconds", outcome.seconds}};
   return json;
@@ -200,7 +228,7 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
     answer.text += fmt::format("Aimed at: a gap of {} where cells are largest. Times of the frames: {}\n",
                                distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
   }
-  answer.next = repair_advice(outcome);
+  answer.next = repair_advice(request, outcome);
   answer.place = repair_place(outcome);
   return answer;
 }

@@ -16,6 +16,7 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/proof_route.h"
+#include "certify/repair/carried.h"
 #include "certify/repair/changes.h"
 #include "certify/repair/repaired_frames.h"
 #include "certify/repair/step_contact.h"
@@ -23,6 +24,7 @@
 #include "certify/simulate/retries.h"
 #include "certify/stopwatch.h"
 #include "trajectory/cells.h"
+#include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
@@ -161,6 +163,7 @@ class Repair {
     verifier_.emplace(mesh_, options(false, true));
     Mesh parts = fixed_parts(mesh_, fixed_);
     if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
+    if (request.spread > 0) carried_.emplace(mesh_, fixed_, request.spread);
     outcome.cells = mesh_.cell_count();
     outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
     outcome.thickness = contact_->greatest_bound();
@@ -291,6 +294,7 @@ class Repair {
     y_.assign(sequence_.x_t1().begin(), sequence_.x_t1().end());
     if (!touches(x_, y_)) return accept(1, y_);
     require_room_between_fixed();
+    take_aim();
     Retries retries;
     std::optional<Retry> how = Retry{};
     while (how) {
@@ -304,6 +308,16 @@ class Repair {
     throw Ended{RepairEnd::undecided};
   }
 
+  /// At the next given frame, or beside it as far as what is off takes its surroundings along.
+  void take_aim() {
+    aim_ = y_;
+    if (!carried_) return;
+    const std::vector<Position> carried = (*carried_)(x_, sequence_.x_t0());
+    for (std::size_t v = 0; v < aim_.size(); ++v) {
+      for (std::size_t k = 0; k < 3; ++k) aim_[v][k] += carried[v][k];
+    }
+  }
+
   /// Decides the straight lines from a to b.
   bool touches(const std::vector<Position>& a, const std::vector<Position>& b) {
     const StepResult found = verifier_->step(a, b);
@@ -313,7 +327,7 @@ class Repair {
 
   std::optional<FilteredStep> filtered(const Retry& how) {
     try {
-      std::optional<FilteredStep> step = (*filter_)(x_, y_, how);
+      std::optional<FilteredStep> step = (*filter_)(x_, aim_, how);
       if (step) keep_third(step->end);
       return step;
     } catch (const integrator::ContactLimit& limit) {
@@ -394,8 +408,10 @@ class Repair {
   integrator::Stop stop_;
   Changes changes_;
   std::vector<Position> x_, y_;  ///< where the step begins, repaired; where it is to end, as given
+  std::vector<Position> aim_;    ///< where it would end without contact
   std::vector<double> mass_;
   std::optional<Groups> groups_;
+  std::optional<CarriedDisplacement> carried_;
   std::optional<StepContact> contact_;
   std::optional<NearGaps<Dim>> gaps_;
   std::optional<StepFilter<Dim>> filter_;
@@ -469,6 +485,20 @@ bool look_at_all(const RepairRequest& request, FrameSource& source, FrameSequenc
   return false;
 }
 
+/// The hashes of the frames that were written, as far as nobody waits for an end.
+void look_at_written(const RepairRequest& request, RepairOutcome& outcome) {
+  const auto stop = [&request] {
+    return stop_asked().has_value() || (request.stop != nullptr && request.stop->load(std::memory_order_relaxed));
+  };
+  try {
+    for (RepairedFrame& frame : outcome.written) {
+      if (stop()) return;
+      frame.facts = file_facts(frame.facts.file, stop);
+    }
+  } catch (const Stopped&) {  // those after it keep their names alone
+  }
+}
+
 template <int Dim>
 void repair(const RepairRequest& request, FrameSource& source, FrameSequence& sequence, RepairOutcome& outcome) {
   Repair<Dim> work(request, source, sequence, outcome);
@@ -481,6 +511,7 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
   }
   work.finish();
   if (outcome.end == RepairEnd::done) verify_all(request, work.written(), outcome);
+  look_at_written(request, outcome);
 }
 
 }  // namespace
@@ -497,27 +528,28 @@ const char* name(RepairEnd end) {
   return "";
 }
 
-RepairOutcome run_repair(const RepairRequest& given) {
+RepairOutcome run_repair(const RepairRequest& request) {
   const Stopwatch watch;
-  RepairRequest request = given;
+  RepairRequest ordered = request;
   RepairOutcome outcome;
   if (request.reading.bodies.empty()) {
-    OrderedFrames ordered = order_frames(std::move(request.frames), request.order);
-    request.frames = std::move(ordered.frames);
-    outcome.notes = std::move(ordered.notes);
+    OrderedFrames frames = order_frames(request.frames, request.order);
+    ordered.frames = std::move(frames.frames);
+    outcome.notes = std::move(frames.notes);
   }
-  const std::unique_ptr<FrameSource> source = open_all_frames(request.frames, request.reading);
+  const std::unique_ptr<FrameSource> source = open_all_frames(ordered.frames, ordered.reading);
   FrameSequence sequence(*source);
   outcome.steps_total = sequence.step_count().value_or(0);
   outcome.frames_given = source->count().value_or(0);
-  if (!look_at_all(request, *source, sequence, outcome)) return outcome;
+  if (!look_at_all(ordered, *source, sequence, outcome)) return outcome;
   outcome.vertices = sequence.mesh().vertex_count;
   outcome.bodies = source->bodies();
-  outcome.dimension = request.dimension.value_or(in_one_plane(sequence.x_t0(), sequence.x_t1()) ? 2 : 3);
+  outcome.inputs = source->facts();
+  outcome.dimension = ordered.dimension.value_or(in_one_plane(sequence.x_t0(), sequence.x_t1()) ? 2 : 3);
   if (outcome.dimension == 2) {
-    repair<2>(request, *source, sequence, outcome);
+    repair<2>(ordered, *source, sequence, outcome);
   } else {
-    repair<3>(request, *source, sequence, outcome);
+    repair<3>(ordered, *source, sequence, outcome);
   }
   outcome.seconds = watch.seconds();
   return outcome;

@@ -88,7 +88,7 @@ std::string RepairedFrames::fingerprint() const {
   std::string text = fmt::format("{}\n{} {} {} {} {} {} {}\n", version_commit(), request_.pattern, request_.fixed_first,
                                  request_.restitution, request_.friction, request_.points,
                                  request_.thickness.value_or(0), request_.dimension.value_or(0));
-  text += fmt::format("{} {}\n", request_.masses, request_.reading.polygons == PolygonRule::refuse);
+  text += fmt::format("{} {} {}\n", request_.masses, request_.spread, request_.reading.polygons == PolygonRule::refuse);
   if (request_.masses != "size" && request_.masses != "uniform") text += read_whole_file(request_.masses);
   for (const std::string& key : request_.reading.keys) text += key + '\n';
   for (const std::string& body : request_.fixed_bodies) text += body + '\n';
@@ -132,7 +132,7 @@ void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>
   std::ifstream in(table_, std::ios::binary);
   std::string line, rows;
   std::vector<double> seen;
-  Counts counts;
+  std::vector<std::string> what;
   std::getline(in, line);
   while (std::getline(in, line) && !in.eof()) {
     const std::filesystem::path file = files_.file(seen.size());
@@ -144,19 +144,17 @@ void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>
     if (error != std::errc() || *rest != ',' || !later) break;
     seen.push_back(time);
     rows += line + '\n';
-    counts.add(line.substr(line.rfind(',') + 1));
+    what.push_back(line.substr(line.rfind(',') + 1));
     if (!is_whole(time)) continue;
     table += rows;
     rows.clear();
     times = seen;
-    counts_ = counts;
+    what_ = what;
   }
 }
 
-void RepairedFrames::Counts::add(std::string_view what) {
-  copied += what == "copied" ? 1 : 0;
-  given += what == "given" ? 1 : 0;
-  inserted += what == "inserted" ? 1 : 0;
+std::size_t RepairedFrames::count(std::string_view what) const {
+  return static_cast<std::size_t>(std::ranges::count(what_, what));
 }
 
 void RepairedFrames::write(double time, const Frame& frame, bool given) {
@@ -170,7 +168,7 @@ void RepairedFrames::write(double time, const Frame& frame, bool given) {
     files_.add(time, frame, write_);
   }
   pending_ += fmt::format("{},{},{},{}\n", name, time, is_whole(time) ? csv_cell(source_.name(k)) : "", what);
-  counts_.add(what);
+  what_.emplace_back(what);
 }
 
 void RepairedFrames::commit() {
@@ -189,11 +187,15 @@ bool RepairedFrames::has_own_file(std::size_t k) const {
 void RepairedFrames::finish(RepairOutcome& outcome) {
   files_.finish();
   outcome.frames = files_.count();
-  outcome.copied = counts_.copied;
-  outcome.as_given = counts_.copied + counts_.given;
-  outcome.inserted = counts_.inserted;
+  outcome.copied = count("copied");
+  outcome.as_given = outcome.copied + count("given");
+  outcome.inserted = count("inserted");
   outcome.removed = files_.removed();
   outcome.times = table_;
+  for (std::uint64_t i = 0; i < files_.count(); ++i) {
+    RepairedFrame& frame = outcome.written.emplace_back(files_.times()[i], what_[i]);
+    frame.facts.file = files_.file(i).string();
+  }
 }
 
 std::vector<std::filesystem::path> RepairedFrames::files() const {

@@ -47,17 +47,12 @@ class RepairedFrames {
   std::vector<std::filesystem::path> files() const;
 
  private:
-  /// What the rows say of frames.
-  struct Counts {
-    std::size_t copied = 0, given = 0, inserted = 0;
-    void add(std::string_view what);
-  };
-
   bool has_own_file(std::size_t k) const;
   bool is_read(const std::filesystem::path& file) const;
   std::string fingerprint() const;
   bool is_there() const;
   void keep_complete_steps(std::string& table, std::vector<double>& times);
+  std::size_t count(std::string_view what) const;
 
   const RepairRequest& request_;
   const FrameSource& source_;
@@ -66,8 +61,8 @@ class RepairedFrames {
   std::string state_text_;
   bool resumes_;
   FrameFiles files_;
-  std::string pending_;  ///< rows that are not committed
-  Counts counts_;
+  std::string pending_;            ///< rows that are not committed
+  std::vector<std::string> what_;  ///< each frame is, as the table says
 };
 
 /// The files beside the frames of a pattern. Throws UsageError for a pattern without a number.

@@ -47,7 +47,7 @@ struct FilteredStep {
   std::vector<Piece> pieces;
   std::vector<Position> end;  ///< the positions at time 1: those given, where nothing struck
   std::uint32_t deepest = 0;  ///< the deepest layer that acted
-  std::size_t phases = 0, breakpoints = 0;
+  std::size_t breakpoints = 0;
   Position momentum_into_fixed{};  ///< as in RepairOutcome
 
   /// The positions at a time in [0, 1], rounded.
@@ -93,7 +93,7 @@ class StepFilter {
       const double length = std::min({1 - now, longest, most_firings * settings.least_step});
       const double next = length < 1 - now ? now + length : 1;
       if (!(next > now)) {  // so fast, or so near, that doubles know no time in between
-        if (limited) throw *limited;
+        if (limited) throw integrator::ContactLimit(*limited);
         return std::nullopt;
       }
       try {
@@ -102,7 +102,7 @@ class StepFilter {
         // Thinner layers, from half way on, may have more room.
         longest = std::min(length, limit.time) / 2;
         limited.emplace(limit.pair, now + limit.time);
-        if (!(longest > shortest_phase)) throw *limited;
+        if (!(longest > shortest_phase)) throw integrator::ContactLimit(*limited);
         continue;
       }
       limited.reset();
@@ -150,7 +150,6 @@ class StepFilter {
     std::move(pieces.begin(), pieces.end(), std::back_inserter(step.pieces));
     step.deepest = std::max(step.deepest, simulation.certificates().deepest);
     step.breakpoints = breakpoints;
-    ++step.phases;
     for (std::size_t k = 0; k < 3; ++k) step.momentum_into_fixed[k] += into_fixed[k];
     state_ = simulation.snapshot();
     for (std::size_t i = 0; i < model.x.size(); ++i) {

@@ -59,8 +59,10 @@ struct RepairRequest {
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
   /// "size": by area and length; "uniform"; else the name of a text file with a positive number for each vertex.
   std::string masses = "size";
-  double restitution = 0.1;                    ///< share of the energy of an approach that comes back, 0 to 1
-  double friction = 0;                         ///< Coulomb's coefficient
+  double restitution = 0.1;  ///< share of the energy of an approach that comes back, 0 to 1
+  double friction = 0;       ///< Coulomb's coefficient
+  /// What is moved takes its surroundings along, over about so many edges; 0: contact alone decides where vertices go.
+  std::uint64_t spread = 0;
   std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes
   bool check = true;                           ///< the checker looks at it
   std::optional<std::chrono::steady_clock::time_point> deadline;
@@ -108,6 +110,13 @@ struct RepairObstacle {
   CellNames names = {};                ///< of these cells
 };
 
+/// A frame that was written.
+struct RepairedFrame {
+  double time = 0;   ///< in steps
+  std::string what;  ///< "copied", byte for byte from the given file; "given", the same numbers; "repaired"; "inserted"
+  FrameFacts facts;  ///< bytes and hash alone; only the name, if it was stopped before these were read
+};
+
 struct RepairOutcome {
   RepairEnd end = RepairEnd::done;
   int dimension = 3;
@@ -130,6 +139,8 @@ struct RepairOutcome {
   std::filesystem::path times;            ///< the table of frames and their times
   std::uint64_t removed = 0;              ///< files of an earlier repair that were not replaced
   std::optional<VerifyOutcome> verified;  ///< what `noli verify` says of the new frames, if all are written
+  std::vector<FrameFacts> inputs;         ///< the given files
+  std::vector<RepairedFrame> written;     ///< by this call and those before it (resume), in the order of time
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall clock
 };

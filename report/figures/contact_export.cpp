@@ -64,7 +64,7 @@ class ContactOf {
 
   /// Where everything is at the time of contact, and the vertices of cells that intersect.
   Frame frame() {
-    const ResultInputs about(result_, path_);
+    const ResultInputs about(result_.value("inputs", Json::array()), path_);
     Frame frame = verified_steps(result_, path_).run ? frame_of_run(about) : frame_between(about);
     if (result_.at("statement").at("points").get<bool>()) {
       const auto particles = unreferenced_vertices(frame.mesh);
@@ -168,7 +168,8 @@ class ContactOf {
     if (!frames_) {
       std::vector<std::filesystem::path> files;
       for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
-      frames_ = open_all_frames(files, reading_of(result_));
+      frames_ = open_all_frames(files, reading_of(result_.value("inputs", Json::array()),
+                                                  result_.at("statement").value("bodies", Json::array())));
     }
     frames_->look_at(k);
     std::optional<Frame> frame = frames_->read(k);

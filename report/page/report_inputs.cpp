@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <noli/errors.h>
 #include "certify/runs/run_folder.h"
@@ -13,8 +14,6 @@
 
 namespace noli::report {
 namespace {
-
-constexpr const char* advice = "; verify what is shown, with --json, and report that result";
 
 bool is_hash(const Json& value) { return value.is_string() && value.get_ref<const std::string&>().size() == 64; }
 
@@ -28,12 +27,10 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "..
 
 }  // namespace
 
-FrameReading reading_of(const Json& result) {
-  const Json& statement = result.at("statement");
+FrameReading reading_of(const Json& inputs, const Json& bodies) {
   FrameReading reading;
-  const Json inputs = result.value("inputs", Json::array());
   if (inputs.size() == 1) reading.keys = inputs[0].value("arrays", Json::array()).get<std::vector<std::string>>();
-  for (const Json& body : statement.value("bodies", Json::array())) {
+  for (const Json& body : bodies) {
     BodyFrames frames{body.at("name").get<std::string>(), {}, body.at("still").get<bool>()};
     for (const Json& input : inputs) {
       if (member(input, "body") == frames.name) frames.frames.emplace_back(member(input, "file"));
@@ -43,12 +40,14 @@ FrameReading reading_of(const Json& result) {
   return reading;
 }
 
-ResultInputs::ResultInputs(const Json& result, const std::filesystem::path& path)
-    : path_(path), inputs_(result.value("inputs", Json::array())) {
+ResultInputs::ResultInputs(Json inputs, const std::filesystem::path& path, std::string_view command)
+    : path_(path),
+      inputs_(std::move(inputs)),
+      advice_(fmt::format("; {} what is shown, with --json, and report that result", command)) {
   const bool hashes = inputs_.is_array() && !inputs_.empty() && std::ranges::any_of(inputs_, [](const Json& input) {
                         return input.is_object() && is_hash(input.value("sha256", Json()));
                       });
-  if (!hashes) refuse(std::string("does not say what it is about: \"inputs\" with SHA-256 is missing") + advice);
+  if (!hashes) refuse(std::string("does not say what it is about: \"inputs\" with SHA-256 is missing") + advice_);
 }
 
 void ResultInputs::refuse(const std::string& what) const { throw InputError(path_.string(), "", what); }
@@ -63,9 +62,9 @@ void ResultInputs::require_file(std::size_t k, const FrameFacts& read) const {
   const Json input = k < inputs_.size() ? inputs_.at(k) : Json();
   const std::string expected = member(input, "sha256"), found = hex(read.sha256);
   if (expected == found) return;
-  if (expected.empty()) refuse(fmt::format("has no SHA-256 of frame {}, which it did not read{}", k + 1, advice));
+  if (expected.empty()) refuse(fmt::format("has no SHA-256 of frame {}, which it did not read{}", k + 1, advice_));
   refuse(fmt::format("is about other frames: frame {} was {} with SHA-256 {}, but {} has {}{}", k + 1,
-                     member(input, "file"), shortened(expected), read.file, shortened(found), advice));
+                     member(input, "file"), shortened(expected), read.file, shortened(found), advice_));
 }
 
 void ResultInputs::require_run(const std::filesystem::path& run) const {
@@ -74,10 +73,10 @@ void ResultInputs::require_run(const std::filesystem::path& run) const {
     const auto input = std::ranges::find_if(
         inputs_, [&](const Json& of) { return std::filesystem::path(member(of, "file")).filename() == name; });
     const std::string expected = input == inputs_.end() ? "" : member(*input, "sha256");
-    if (expected.empty()) refuse(fmt::format("has no SHA-256 of {}{}", name, advice));
+    if (expected.empty()) refuse(fmt::format("has no SHA-256 of {}{}", name, advice_));
     if (expected == found) continue;
     refuse(fmt::format("is about another run, or about less of this one: its {} had SHA-256 {}, but {} has {}{}", name,
-                       shortened(expected), facts.file, shortened(found), advice));
+                       shortened(expected), facts.file, shortened(found), advice_));
   }
 }
 

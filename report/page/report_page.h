@@ -8,12 +8,14 @@
 //                    caveats: those of the lines that a page never folds
 //   facts            pairs of texts; statement: [name, text, shown], shown: to be read without unfolding anything
 //   scene            null, or dimension, vertices, cells {faces, edges, points},
-//                    parts [{name, first, vertices, fixed}], frames, times, unit, least, greatest,
+//                    parts [{name, first, vertices, fixed, given: only if true, drawn to be seen through}],
+//                    frames, times, unit, least, greatest,
 //                    steps {begin, list: the ends of the steps}, note
 //   contacts         null, or counts by kind, total, initial, per_step [totals], goes_on [steps], settled: no contact
 //                    is earlier than the first, first: null or a contact, listed: contacts {step, pair, features, and
 //                    if the result has them time, kind, cells, bodies, point}, intersections [{step, cells}]
-//   focus            of a run: null, or the pair that its motion opens with {meets, features, time, words}
+//   focus            of a run or a repair: null, or the pair that its motion opens with {meets, features, time, words,
+//                    name: of the button that leads to it, if no other}
 //   plots            [{title, x, y, log, times, series: [{name, values}]}]
 //   pictures         [{name, image: a data: address}]; results: [{name, tone, result: any JSON}]
 // And, packed (zlib, then base64), cells: vertex numbers, u32, of all faces, edges, points; motion: see PackedFrames.

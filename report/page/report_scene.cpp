@@ -26,6 +26,7 @@ void put_scene(const ReportScene& scene, PackedFrames frames, ReportPage& report
   Json parts = Json::array();
   for (const ReportPart& part : scene.parts) {
     parts.push_back({{"name", part.name}, {"first", part.first}, {"vertices", part.vertices}, {"fixed", part.fixed}});
+    if (part.given) parts.back()["given"] = true;
   }
   const Mesh& mesh = scene.mesh;
   report.page["scene"] = {

@@ -16,6 +16,7 @@ struct ReportPart {
   std::string name;
   std::uint64_t first = 0, vertices = 0;
   bool fixed = false;  ///< all its vertices are pinned or scripted
+  bool given = false;  ///< not the motion itself, but the one that it was made from
 };
 
 struct ReportScene {

@@ -119,7 +119,17 @@ class Stage {
       player.label,
       player.speed,
       element("label", {}, edges, " edges"),
+      ...this.givenControl(),
     );
+  }
+
+  /** Shows and hides the motion that this one was made from. */
+  givenControl() {
+    const part = this.scene.parts.find((p) => p.given);
+    if (!part) return [];
+    const box = element("input", { type: "checkbox", checked: true });
+    box.onchange = () => this.view.showGiven(box.checked);
+    return [element("label", {}, box, ` ${part.name}`)];
   }
 
   show(time) {
@@ -181,7 +191,7 @@ class Stage {
   open() {
     this.view.resize();
     const first = this.list[0] ?? this.page.focus;
-    this.toContact.textContent = first && first.meets === false ? "Nearest pair" : "Contact";
+    this.toContact.textContent = first?.name ?? (first?.meets === false ? "Nearest pair" : "Contact");
     this.toContact.hidden = !first;
     if (first) this.pick(first);
     else this.player.show(this.motion.first);

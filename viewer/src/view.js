@@ -41,6 +41,19 @@ function coloursOf(scene, topology) {
   return list;
 }
 
+/** The cells of the motion itself, and those of the part that is given, if there is one. */
+function parted(scene, cells) {
+  const part = scene.parts.find((p) => p.given);
+  if (!part) return [cells, null];
+  const of = (list, size, given) => list.filter((_, i) => list[i - (i % size)] >= part.first === given);
+  const cut = (given) => ({
+    faces: of(cells.faces, 3, given),
+    edges: of(cells.edges, 2, given),
+    points: of(cells.points, 1, given),
+  });
+  return [cut(false), cut(true)];
+}
+
 function setIndex(geometry, indices) {
   geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(indices), 1));
 }
@@ -49,7 +62,8 @@ export class View {
   constructor(stage, scene, cells) {
     this.stage = stage;
     this.scene = scene;
-    this.cells = cells;
+    [this.cells, this.given] = parted(scene, cells);
+    cells = this.cells;
     this.topology = new Topology(cells, scene.vertices);
     this.drawn = 0;
     this.renderer = new THREE.WebGLRenderer({ antialias: !drawsInSoftware(), powerPreference: "high-performance" });
@@ -84,7 +98,24 @@ export class View {
     const dark = { vertexColors: true, color: new THREE.Color(0.22, 0.22, 0.22) };
     this.add(THREE.LineSegments, cells.edges, new THREE.LineBasicMaterial(dark), true);
     this.add(THREE.Points, cells.points, new THREE.PointsMaterial({ ...dot, ...dark }), true);
+    if (this.given) this.makeGiven(dot);
     this.highlight = new Highlight(this.group, this.positions);
+  }
+
+  /** Over all else, and seen through. */
+  makeGiven(dot) {
+    const through = { color: colours.given, transparent: true, opacity: 0.35, depthWrite: false };
+    this.givenObjects = [
+      this.add(THREE.Mesh, this.given.faces, new THREE.MeshBasicMaterial({ ...through, side: THREE.DoubleSide })),
+      this.add(THREE.LineSegments, this.given.edges, new THREE.LineBasicMaterial(through)),
+      this.add(THREE.Points, this.given.points, new THREE.PointsMaterial({ ...dot, ...through })),
+    ];
+    for (const object of this.givenObjects) object.renderOrder = 1;
+  }
+
+  showGiven(visible) {
+    for (const object of this.givenObjects) object.visible = visible;
+    this.changed();
   }
 
   add(Kind, indices, material, coloured) {

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page/report_repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <noli/errors.h>
+#include "certify/process/hdf5_frames.h"
+#include "report/page/report_inputs.h"
+#include "report/page/report_motion.h"
+#include "report/page/report_results.h"
+#include "report/page/report_scene.h"
+#include "report/page/report_verdict.h"
+#include "trajectory/formats/frame_sequence.h"
+#include "trajectory/formats/frames.h"
+#include "trajectory/sample.h"
+#include "trajectory/stop.h"
+#include "trajectory/text.h"
+
+namespace noli::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The given motion at times that ascend: straight lines between its frames.
+class GivenMotion {
+ public:
+  explicit GivenMotion(FrameSource& frames) : sequence_(frames) { sequence_.next(); }
+
+  const Mesh& mesh() const { return sequence_.mesh(); }
+  /// Time in steps, up to the last frame.
+  std::vector<Position> at(double time) {
+    while (time > static_cast<double>(sequence_.step() + 1) && sequence_.next()) {
+    }
+    const double t = time - static_cast<double>(sequence_.step());
+    std::vector<Position> x(sequence_.x_t1().begin(), sequence_.x_t1().end());
+    for (std::size_t v = 0; v < x.size() && t < 1; ++v) {
+      x[v] = sample_between(sequence_.x_t0()[v], x[v], t);
+    }
+    return x;
+  }
+
+ private:
+  FrameSequence sequence_;
+};
+
+/// A mesh beside itself: the vertices and cells of the second follow those of the first.
+Mesh twice(const Mesh& mesh) {
+  Mesh both = mesh;
+  const auto n = static_cast<VertexId>(mesh.vertex_count);
+  both.vertex_count = 2 * mesh.vertex_count;
+  for (const auto& [a, b, c] : mesh.faces) both.faces.push_back({a + n, b + n, c + n});
+  for (const auto& [a, b] : mesh.edges) both.edges.push_back({a + n, b + n});
+  for (const VertexId a : mesh.points) both.points.push_back(a + n);
+  return both;
+}
+
+class Repaired {
+ public:
+  Repaired(const Json& result, const fs::path& path, const ReportLimits& limits, ReportPage& report)
+      : result_(result), path_(path), limits_(limits), report_(report) {}
+
+  void put() {
+    put_verdict();
+    put_plot();
+    if (!result_.at("outputs").empty()) put_motion();
+    put_result();
+  }
+
+ private:
+  std::uint64_t count(const char* what) const { return result_.at(what).get<std::uint64_t>(); }
+
+  void put_verdict() {
+    const auto word = result_.at("verdict").get<std::string>();
+    take_word(word, report_);
+    Json& lines = report_.page["verdict"]["lines"];
+    lines.push_back(fmt::format("noli repair says {} ({}): {} of {} steps changed, {} frames inserted.", spoken(word),
+                                page_name(path_), result_.at("changed").size(), count("steps"), count("inserted")));
+    if (const Json& checker = result_.at("checker"); checker.is_object()) {
+      lines.push_back(fmt::format("{} {} accepted the proof that nothing touches in the new frames.",
+                                  checker.at("name").get<std::string>(), checker.at("version").get<std::string>()));
+    }
+    if (const Json most = most_changed(); !most.is_null()) lines.push_back(words_of(most));
+    const auto end = result_.at("end").get<std::string>();
+    if (end == "done") return;
+    add_caveat(fmt::format("It ended ({}) after {} of {} steps: later frames are not repaired.", spoken(end),
+                           count("steps"), count("steps_total")),
+               report_);
+  }
+
+  /// Of the steps that were changed, the one with the largest displacement.
+  Json most_changed() const {
+    const Json& changed = result_.at("changed");
+    const auto most =
+        std::ranges::max_element(changed, {}, [](const Json& step) { return step.at("largest").get<double>(); });
+    return most == changed.end() ? Json() : *most;
+  }
+
+  std::string words_of(const Json& step) const {
+    return fmt::format("Moved most from where it was given: vertex {} at the end of step {}, by {}.",
+                       step.at("vertex").get<std::uint64_t>(), step.at("step").get<std::uint64_t>(),
+                       digits4(step.at("largest").get<double>()));
+  }
+
+  void put_plot() {
+    Json times = Json::array(), largest = Json::array(), rms = Json::array();
+    for (const Json& step : result_.at("changed")) {
+      times.push_back(step.at("step"));
+      largest.push_back(step.at("largest"));
+      rms.push_back(step.at("rms"));
+    }
+    if (times.size() < 2) return;
+    report_.page["plots"].push_back(
+        {{"title", "How far vertices end from where they were given, in steps that were changed"},
+         {"x", "step"},
+         {"y", "distance"},
+         {"log", false},
+         {"times", times},
+         {"series", {{{"name", "largest"}, {"values", largest}}, {{"name", "root mean square"}, {"values", rms}}}}});
+  }
+
+  std::vector<fs::path> files(const Json& list) const {
+    std::vector<fs::path> files;
+    for (const Json& of : list) {
+      files.emplace_back(of.at("file").get<std::string>());
+      if (fs::exists(files.back())) continue;
+      throw InputError(path_.string(), "",
+                       fmt::format("names {}, which is not there; run noli report where noli repair ran, with the "
+                                   "frames still in their places",
+                                   files.back().string()));
+    }
+    return files;
+  }
+
+  /// The frames of a list of files, which have the hashes that the result says.
+  std::unique_ptr<FrameSource> open(const Json& list, const FrameReading& reading) const {
+    auto frames = open_all_frames(files(list), reading);
+    const std::size_t count = frames->count().value_or(0);
+    for (std::size_t k = 0; k < count; ++k) frames->look_at(k);
+    ResultInputs(list, path_, "repair").require_files(frames->facts());
+    return frames;
+  }
+
+  void put_motion() {
+    const Json &inputs = result_.at("inputs"), &outputs = result_.at("outputs");
+    const auto given_frames = open(inputs, reading_of(inputs, result_.at("bodies")));
+    const auto frames = open(outputs, {});
+    GivenMotion given(*given_frames);
+    const std::size_t vertices = given.mesh().vertex_count;
+    MotionPacker packer(2 * vertices, limits_.most_bytes);
+    FrameSequence sequence(*frames, Motion::constant);
+    for (std::size_t k = 0; sequence.next(); ++k) {
+      end_if_stopped();
+      require_same_mesh(given.mesh(), given_frames->name(0), sequence.mesh(), sequence.name_t0());
+      const auto time = outputs.at(k).at("time").get<double>();
+      if (limits_.progress) limits_.progress(static_cast<double>(k + 1) / static_cast<double>(outputs.size()));
+      if (packer.skip()) continue;
+      std::vector<Position> both(sequence.x_t0().begin(), sequence.x_t0().end());
+      const std::vector<Position> y = given.at(time);
+      both.insert(both.end(), y.begin(), y.end());
+      packer.add(time, both);
+    }
+    std::string note = "The given motion is seen through; between its frames vertices move on straight lines.";
+    if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
+    note += " Positions are rounded for the picture.";
+    std::vector<double> ends;
+    for (std::uint64_t step = 1; step <= count("steps"); ++step) ends.push_back(static_cast<double>(step));
+    const Mesh both = twice(given.mesh());
+    put_scene({static_cast<int>(count("dimension")), both, parts(vertices), "steps", 0, ends, note}, packer.pack(),
+              report_);
+    put_focus(vertices);
+    report_.page["facts"].push_back(
+        {"From", fmt::format("{}: what noli repair says; the frames that it read and wrote, with the same SHA-256",
+                             page_name(path_))});
+  }
+
+  std::vector<ReportPart> parts(std::size_t vertices) const {
+    std::vector<ReportPart> parts;
+    for (const Json& body : result_.at("bodies")) {
+      parts.push_back({body.at("name").get<std::string>(), body.at("first_vertex").get<std::uint64_t>(),
+                       body.at("vertices").get<std::uint64_t>(), body.at("still").get<bool>()});
+    }
+    if (parts.empty()) parts.push_back({"mesh", 0, vertices, false});
+    parts.push_back({"as given", vertices, vertices, false, true});
+    return parts;
+  }
+
+  /// The motion opens where most was changed.
+  void put_focus(std::size_t vertices) {
+    const Json most = most_changed();
+    if (most.is_null()) return;
+    const auto vertex = most.at("vertex").get<std::uint64_t>();
+    report_.page["focus"] = {{"meets", false},
+                             {"features", {{vertex}, {vertex + vertices}}},
+                             {"time", most.at("step")},
+                             {"name", "Moved most"},
+                             {"words", words_of(most)}};
+  }
+
+  void put_result() {
+    Json shown = result_;
+    shown.erase("inputs");
+    shown.erase("outputs");
+    const std::string_view tone = name(tone_of(result_.at("verdict").get<std::string>()));
+    report_.page["results"].push_back({{"name", page_name(path_)}, {"tone", tone}, {"result", std::move(shown)}});
+  }
+
+  const Json& result_;
+  const fs::path& path_;
+  const ReportLimits& limits_;
+  ReportPage& report_;
+};
+
+}  // namespace
+
+bool is_of_repair(const Json& result) { return result.value("schema", Json()) == "noli-repair"; }
+
+void report_repair(const Json& result, const fs::path& path, const ReportLimits& limits, ReportPage& report) {
+  try {
+    Repaired(result, path, limits, report).put();
+  } catch (const Json::exception& error) {
+    throw InputError(path.string(), "", fmt::format("is no result of noli repair: {}", error.what()));
+  }
+}
+
+}  // namespace noli::report

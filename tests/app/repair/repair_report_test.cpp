@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests the pages that `noli report` writes about a repair: both motions, of the files that the result names.
+#include "tests/app/repair/repair_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+class RepairReport : public Repair {
+ protected:
+  void SetUp() override {
+    const Process process = run_noli({"report", "nothing.json", "-o", folder.path("probe.html")});
+    if (process.err.find("was built without reports") != std::string::npos) {
+      GTEST_SKIP() << "skipped: this noli was built without reports (NOLI_WITH_REPORT)";
+    }
+    frames_ = falling({1, 0.5, -0.5, -0.25, 1});
+    EXPECT_EQ(run_noli(repair(frames_, {"--json", result_})).exit_code, 0);
+  }
+
+  Process report(const Words& more = {}) const {
+    Words words = {"report", result_, "-o", page_, "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_noli(words);
+  }
+  void refuses(const std::string& why) const {
+    const Process process = report();
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+  }
+  Json page() const {
+    const Process process = report();
+    EXPECT_EQ(process.exit_code, 0) << process.err;
+    const std::string html = read_text(page_);
+    const std::size_t begin = html.find('>', html.find("id=\"page\"")) + 1;
+    return Json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+  }
+
+  std::string result_ = folder.path("mended.json"), page_ = folder.path("mended.html");
+  Words frames_;
+};
+
+TEST_F(RepairReport, ShowsBothMotions) {
+  const Json json = page(), result = Json::parse(read_text(result_));
+  EXPECT_EQ(json["title"], "mended");
+  EXPECT_EQ(json["verdict"]["word"], "proved");
+  const Json& scene = json["scene"];
+  EXPECT_EQ(scene["vertices"], 12);
+  EXPECT_EQ(scene["cells"]["faces"], 4);
+  EXPECT_EQ(scene["frames"], result["frames"]);
+  EXPECT_EQ(scene["parts"][1]["name"], "as given");
+  EXPECT_EQ(scene["parts"][1]["given"], true);
+  EXPECT_EQ(scene["parts"][1]["first"], 6);
+  EXPECT_FALSE(scene["parts"][0].contains("given"));
+  // As given, it sinks to -0.5; repaired, it does not.
+  EXPECT_EQ(scene["least"][2], -0.5);
+  const Json& most = json["focus"];
+  EXPECT_EQ(most["features"][1][0], most["features"][0][0].get<int>() + 6);
+  EXPECT_EQ(json["plots"][0]["times"].size(), result["changed"].size());
+  EXPECT_FALSE(json["results"][0]["result"].contains("inputs"));
+}
+
+TEST_F(RepairReport, RefusesOtherFiles) {
+  const std::string given = read_text(frames_[2]);
+  folder.write("in_2.ply", two_triangles(-0.75));
+  refuses("is about other frames: frame 3 was");
+  folder.write("in_2.ply", given);
+  EXPECT_EQ(report().exit_code, 0);
+  const std::string repaired = read_text(out(1));
+  folder.write("out/001.ply", two_triangles(0.375));
+  refuses("is about other frames: frame 2 was");
+  fs::remove(out(1));
+  refuses("001.ply, which is not there");
+  folder.write("out/001.ply", repaired);
+  EXPECT_EQ(report().exit_code, 0);
+}
+
+TEST_F(RepairReport, RefusesWhatDoesNotFit) {
+  const Process more = report({frames_[0]});
+  EXPECT_EQ(more.exit_code, 3);
+  EXPECT_NE(more.err.find("expected no others"), std::string::npos) << more.err;
+  Json result = Json::parse(read_text(result_));
+  result["outputs"][1]["sha256"] = nullptr;
+  folder.write("mended.json", result.dump());
+  refuses("has no SHA-256 of frame 2");
+  result.erase("outputs");
+  folder.write("mended.json", result.dump());
+  refuses("is no result of noli repair");
+}
+
+TEST_F(RepairReport, OfARepairThatCannotBe) {
+  EXPECT_EQ(run_noli(repair(frames_, {"--json", result_, "--force", "--fixed-first", "6"})).exit_code, 1);
+  const Json json = page();
+  EXPECT_EQ(json["verdict"]["word"], "cannot_be");
+  EXPECT_EQ(json["verdict"]["tone"], "bad");
+  EXPECT_NE(json["verdict"]["caveats"].dump().find("after 1 of 4 steps"), std::string::npos) << json["verdict"];
+  EXPECT_EQ(json["scene"]["frames"], 2);
+  EXPECT_TRUE(json["focus"].is_null());
+}
+
+}  // namespace
+}  // namespace noli::app_tests
