@@ -17,8 +17,11 @@
 #include "app/progress.h"
 #include "certify/runs/run_folder.h"
 #include "report/figures/contact_export.h"
+#include "report/figures/repair_picture.h"
 #include "report/figures/run_figure.h"
 #include "report/figures/run_picture.h"
+#include "report/page/report_results.h"
+#include "report/repaired_motions.h"
 
 namespace noli::app {
 namespace {
@@ -33,6 +36,7 @@ constexpr const char* export_footer =
     "  noli export runs/cloth --fps 60 -o frames/%05d.ply\n"
     "  noli export result.json -o hits.vtu       the first contact that noli verify found, marked\n"
     "  noli export result.json -o first.png      a picture of it\n"
+    "  noli export mended.json --at 12 -o after.png    of noli repair --json; --given: before\n"
     "  noli export runs/cloth --fps 24 -o paraview/cloth_%04d.vtu    and cloth.pvd, which ParaView opens\n"
     "  noli export runs/cloth --at 0.5 -o cloth.png --from 1 -2 0.5 --size 1280x720 --zoom cloth\n"
     "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720   a film\n"
@@ -48,6 +52,7 @@ struct ExportArguments {
   std::optional<std::size_t> contact;
   std::optional<Position> from;
   std::string size, zoom;  ///< empty: not given
+  bool given = false;      ///< of a repair
   std::string time_limit;
 };
 
@@ -84,6 +89,24 @@ std::optional<std::array<std::size_t, 2>> size_of(const std::string& text) {
     throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from {} to {}", text, least, most));
   }
   return size;
+}
+
+/// A motion of a result of noli repair.
+ExitCode show_repair(const ExportArguments& arguments) {
+  const ExportRequest& request = arguments.frames;
+  if (!arguments.at || !request.pattern.ends_with(".png")) {
+    throw UsageError("a result of noli repair: expected --at TIME, in steps, and -o with a name that ends in .png");
+  }
+  if (arguments.contact) throw UsageError("--contact: is for a result of noli verify; expected none of noli repair");
+  require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
+  const report::PictureView view{arguments.from, size_of(arguments.size), arguments.zoom};
+  const report::PictureOutcome shown =
+      report::repair_picture({request.run, *arguments.at, arguments.given, view, request.pattern});
+  report::Answer answer("written");
+  answer.place = fmt::format("{}  {} at {} steps, {} x {} pixels", on_one_line(request.pattern),
+                             arguments.given ? "as given" : "repaired", shown.time, shown.width, shown.height);
+  write_words(answer);
+  return ExitCode::holds;
 }
 
 /// One contact of a result.
@@ -128,7 +151,12 @@ report::Answer export_answer(const ExportRequest& request, const ExportOutcome& 
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
-  if (std::filesystem::is_regular_file(request.run)) return show_contact(arguments);
+  if (std::filesystem::is_regular_file(request.run)) {
+    if (report::is_of_repair(report::read_result(request.run))) return show_repair(arguments);
+    if (arguments.given) throw UsageError("--given: is for a result of noli repair; expected none without it");
+    return show_contact(arguments);
+  }
+  if (arguments.given) throw UsageError("--given: is for a result of noli repair; expected none without it");
   if (arguments.contact)
     throw UsageError("--contact: is for a result of noli verify (--json); expected no run with it");
   note_if_being_written(request.run);
@@ -158,7 +186,9 @@ Command add_export(CLI::App& app) {
   command->footer(export_footer);
   const auto arguments = std::make_shared<ExportArguments>();
   ExportRequest* const request = &arguments->frames;
-  command->add_option("run", request->run, "The folder of a run, or a result of `noli verify --json` with a contact")
+  command
+      ->add_option("run", request->run,
+                   "The folder of a run, a result of `noli verify --json` with a contact, or one of `noli repair`")
       ->required()
       ->type_name("RUN|RESULT.json");
   auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
@@ -175,8 +205,10 @@ Command add_export(CLI::App& app) {
   auto* const figure =
       command->add_option("--figure", arguments->figure, "Draw this instead: step-histogram, energy, momentum");
   figure->excludes(fps)->type_name("NAME");
-  auto* const at = command->add_option("--at", arguments->at, "A picture of this time, in seconds (.png)");
+  auto* const at =
+      command->add_option("--at", arguments->at, "A picture of this time, in seconds, or in steps of a repair (.png)");
   at->excludes(fps)->excludes(figure);
+  command->add_flag("--given", arguments->given, "Of a result of `noli repair`: the motion as it was given");
   command->add_option("--from", arguments->from, "Direction in which the eye is, of pictures: x y z, or x,y,z")
       ->delimiter(',');
   command->add_option("--size", arguments->size, "Pixels of a picture; else 640 wide")->type_name("WxH");

@@ -5,21 +5,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <noli/errors.h>
-#include "certify/process/hdf5_frames.h"
-#include "report/page/report_inputs.h"
 #include "report/page/report_motion.h"
 #include "report/page/report_results.h"
 #include "report/page/report_scene.h"
 #include "report/page/report_verdict.h"
-#include "trajectory/formats/frame_sequence.h"
-#include "trajectory/formats/frames.h"
-#include "trajectory/sample.h"
+#include "report/repaired_motions.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -27,28 +22,6 @@ namespace noli::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The given motion at times that ascend: straight lines between its frames.
-class GivenMotion {
- public:
-  explicit GivenMotion(FrameSource& frames) : sequence_(frames) { sequence_.next(); }
-
-  const Mesh& mesh() const { return sequence_.mesh(); }
-  /// Time in steps, up to the last frame.
-  std::vector<Position> at(double time) {
-    while (time > static_cast<double>(sequence_.step() + 1) && sequence_.next()) {
-    }
-    const double t = time - static_cast<double>(sequence_.step());
-    std::vector<Position> x(sequence_.x_t1().begin(), sequence_.x_t1().end());
-    for (std::size_t v = 0; v < x.size() && t < 1; ++v) {
-      x[v] = sample_between(sequence_.x_t0()[v], x[v], t);
-    }
-    return x;
-  }
-
- private:
-  FrameSequence sequence_;
-};
 
 /// A mesh beside itself: the vertices and cells of the second follow those of the first.
 Mesh twice(const Mesh& mesh) {
@@ -125,46 +98,20 @@ class Repaired {
          {"series", {{{"name", "largest"}, {"values", largest}}, {{"name", "root mean square"}, {"values", rms}}}}});
   }
 
-  std::vector<fs::path> files(const Json& list) const {
-    std::vector<fs::path> files;
-    for (const Json& of : list) {
-      files.emplace_back(of.at("file").get<std::string>());
-      if (fs::exists(files.back())) continue;
-      throw InputError(path_.string(), "",
-                       fmt::format("names {}, which is not there; run noli report where noli repair ran, with the "
-                                   "frames still in their places",
-                                   files.back().string()));
-    }
-    return files;
-  }
-
-  /// The frames of a list of files, which have the hashes that the result says.
-  std::unique_ptr<FrameSource> open(const Json& list, const FrameReading& reading) const {
-    auto frames = open_all_frames(files(list), reading);
-    const std::size_t count = frames->count().value_or(0);
-    for (std::size_t k = 0; k < count; ++k) frames->look_at(k);
-    ResultInputs(list, path_, "repair").require_files(frames->facts());
-    return frames;
-  }
-
   void put_motion() {
-    const Json &inputs = result_.at("inputs"), &outputs = result_.at("outputs");
-    const auto given_frames = open(inputs, reading_of(inputs, result_.at("bodies")));
-    const auto frames = open(outputs, {});
-    GivenMotion given(*given_frames);
+    const RepairedMotions motions = repaired_motions(result_, path_);
+    TimedFrames& given = *motions.given;
     const std::size_t vertices = given.mesh().vertex_count;
     MotionPacker packer(2 * vertices, limits_.most_bytes);
-    FrameSequence sequence(*frames, Motion::constant);
-    for (std::size_t k = 0; sequence.next(); ++k) {
+    const std::vector<double>& times = motions.repaired->times();
+    for (std::size_t k = 0; k < times.size(); ++k) {
       end_if_stopped();
-      require_same_mesh(given.mesh(), given_frames->name(0), sequence.mesh(), sequence.name_t0());
-      const auto time = outputs.at(k).at("time").get<double>();
-      if (limits_.progress) limits_.progress(static_cast<double>(k + 1) / static_cast<double>(outputs.size()));
+      if (limits_.progress) limits_.progress(static_cast<double>(k + 1) / static_cast<double>(times.size()));
       if (packer.skip()) continue;
-      std::vector<Position> both(sequence.x_t0().begin(), sequence.x_t0().end());
-      const std::vector<Position> y = given.at(time);
+      std::vector<Position> both = motions.repaired->at(times[k]);
+      const std::vector<Position> y = given.at(times[k]);
       both.insert(both.end(), y.begin(), y.end());
-      packer.add(time, both);
+      packer.add(times[k], both);
     }
     std::string note = "The given motion is seen through; between its frames vertices move on straight lines.";
     if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
@@ -218,8 +165,6 @@ class Repaired {
 };
 
 }  // namespace
-
-bool is_of_repair(const Json& result) { return result.value("schema", Json()) == "noli-repair"; }
 
 void report_repair(const Json& result, const fs::path& path, const ReportLimits& limits, ReportPage& report) {
   try {

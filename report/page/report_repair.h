@@ -13,8 +13,6 @@
 
 namespace noli::report {
 
-bool is_of_repair(const Json& result);
-
 /// Fills verdict, facts, scene, focus and plots, and adds the result without its lists of files to the results. Reads
 /// the frames that the result names. Throws InputError where these are not there, or have other bytes; ReadInterrupted.
 void report_repair(const Json& result, const std::filesystem::path& path, const ReportLimits& limits,

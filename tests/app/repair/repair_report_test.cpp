@@ -97,5 +97,31 @@ TEST_F(RepairReport, OfARepairThatCannotBe) {
   EXPECT_TRUE(json["focus"].is_null());
 }
 
+#ifdef NOLI_WITH_PNG
+TEST_F(RepairReport, PicturesShowTheMotionBeforeAndAfter) {
+  const auto picture = [&](const char* name, const Words& more) {
+    const Process process = run_noli(Words{"export", result_, "-o", folder.path(name)} + more);
+    EXPECT_EQ(process.exit_code, 0) << process.err;
+    return read_text(folder.path(name));
+  };
+  const std::string before = picture("before.png", {"--at", "2", "--given"}),
+                    after = picture("after.png", {"--at", "2"});
+  EXPECT_TRUE(after.starts_with("\x89PNG"));
+  EXPECT_NE(before, after);
+  // Where it is free, both are the same.
+  EXPECT_EQ(picture("free.png", {"--at", "0.5", "--given"}), picture("free_after.png", {"--at", "0.5"}));
+  const auto refused = [&](const Words& more, const std::string& why) {
+    const Process process = run_noli(Words{"export", result_, "-o", folder.path("no.png")} + more);
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+  };
+  refused({"--at", "4.5"}, "is about the times from 0 to 4 steps");
+  refused({"--at", "-1"}, "is about the times from 0 to 4 steps");
+  refused({}, "expected --at TIME");
+  refused({"--at", "1", "--zoom", "hat"}, "no such body");
+  refused({"--at", "1", "--from", "0,0,0"}, "--from");
+}
+#endif
+
 }  // namespace
 }  // namespace noli::app_tests

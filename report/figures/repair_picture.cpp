@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/figures/repair_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <noli/errors.h>
+#include "report/figures/png.h"
+#include "report/page/report_results.h"
+#include "report/repaired_motions.h"
+#include "trajectory/write_file.h"
+
+namespace noli::report {
+namespace {
+
+/// The body fills the picture.
+void zoom_to(const std::string& name, const Json& bodies, View& view) {
+  const auto body = std::ranges::find_if(bodies, [&](const Json& of) { return of.at("name") == name; });
+  if (body == bodies.end()) throw UsageError("--zoom " + name + ": the repair has no such body");
+  view.first = body->at("first_vertex").get<std::size_t>();
+  view.count = body->at("vertices").get<std::size_t>();
+}
+
+PictureOutcome drawn(const RepairPictureRequest& request, const Json& result) {
+  const RepairedMotions motions = repaired_motions(result, request.result);
+  const double last = motions.repaired->times().back();
+  if (!(request.time >= 0 && request.time <= last)) {
+    throw InputError(request.result.string(), "",
+                     fmt::format("is about the times from 0 to {} steps, not {}", last, request.time));
+  }
+  TimedFrames& motion = request.given ? *motions.given : *motions.repaired;
+  View view = view_from(request.view, result.at("dimension").get<int>());
+  if (!request.view.zoom.empty()) zoom_to(request.view.zoom, result.at("bodies"), view);
+  const Frame frame{motion.mesh(), motion.at(request.time)};
+  try {
+    const Picture picture = draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view);
+    replace_file(request.output, png(picture));
+    return {request.time, picture.width, picture.height};
+  } catch (const std::invalid_argument&) {
+    throw UsageError("--from: expected a direction other than zero");
+  }
+}
+
+}  // namespace
+
+PictureOutcome repair_picture(const RepairPictureRequest& request) {
+  require_pictures();
+  const Json result = read_result(request.result);
+  try {
+    return drawn(request, result);
+  } catch (const Json::exception& error) {
+    throw InputError(request.result.string(), "", fmt::format("is no result of noli repair: {}", error.what()));
+  }
+}
+
+}  // namespace noli::report
