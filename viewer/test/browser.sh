@@ -49,6 +49,11 @@ verify --no-check --static --keep-going --max-reports 1000 --json "$out/rest.jso
 "$noli" report "$out/rest.json" "$out"/frames/*.ply -o "$out/rest.html"
 look rest '{"word": "contact", "tone": "bad", "frames": 6, "meets": 0.005, "shows": ["pairs of cells intersect before anything moves", "intersection", "frame 5 of 6"], "folds": ["is cut into the triangles"]}'
 
+# A repair: both motions, opened where most was changed.
+"$noli" repair "$out"/frames/*.ply -o "$out/mended/%03d.ply" --no-check --json "$out/mended.json" >/dev/null
+"$noli" report "$out/mended.json" -o "$out/mended.html"
+look mended '{"word": "no contact", "tone": "good", "frames": 6, "plots": 1, "shows": ["steps changed", "Moved most from where it was given", "as given"]}'
+
 # A verdict with 100,000 contacts: it opens as fast as one without.
 mkdir "$out/many_frames"
 "$demo_frames" contact 175 "$out/many_frames"
