@@ -160,6 +160,10 @@ Command add_repair(CLI::App& app) {
       ->type_name("GROUPS.json")
       ->group(group::question);
   command
+      ->add_flag("--only-new", request.only_new,
+                 "Cells that intersect in the first frame are not compared: they may go on so")
+      ->group(group::question);
+  command
       ->add_flag("--points", request.points,
                  "Treat vertices without a face or edge as particles; else they are ignored")
       ->group(group::question);

@@ -215,6 +215,9 @@ class Contact {
   }
   bool immovable(VertexId i) const { return particles_[i].inverse_mass == 0; }
   std::uint16_t material(const certificates::Stencil& pair) const {
+    if (!settings_.excluded_pairs.empty() && std::ranges::binary_search(settings_.excluded_pairs, pair.key)) {
+      return ContactSettings::excluded;
+    }
     const std::span<const VertexId> vertices(pair.vertices.data(), pair.size());
     return settings_.material(vertices.first(pair.first()), vertices.subspan(pair.first()));
   }

@@ -74,6 +74,8 @@ struct ContactSettings {
   /// [((g * group_count + h) * class_count + a) * class_count + b]: for groups g and h, classes a and b, symmetric; or
   /// `excluded`, then for all classes of the groups.
   std::vector<std::uint16_t> material_of;
+  /// Keys of pairs of features (certificates/stencil.h), ascending: these may pass through each other too.
+  std::vector<std::uint64_t> excluded_pairs = {};
 
   std::uint8_t class_of(VertexId v) const { return classes.empty() ? 0 : classes[v]; }
   std::size_t place(std::size_t g, std::size_t h, std::size_t a, std::size_t b) const {

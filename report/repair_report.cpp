@@ -155,8 +155,8 @@ std::string repair_advice(const RepairRequest& request, const RepairOutcome& out
     case RepairEnd::done:
       return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : spread;
     case RepairEnd::start_touches:
-      return "separate them in the first frame, or leave them out with --ignore: they may then pass through each "
-             "other.";
+      return "separate them in the first frame, or leave them out: with --only-new all that intersects there, with "
+             "--ignore groups of vertices; these may then pass through each other.";
     case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
     case RepairEnd::undecided:
       return spread.empty() ? "try another --thickness or --restitution, or let fewer vertices be fixed." : spread;
@@ -185,6 +185,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
   json["fixed"] = outcome.fixed;
+  json["baseline"] = request.only_new ? Json(outcome.baseline) : Json(nullptr);
   json["thickness"] = outcome.thickness;
   json["restitution"] = request.restitution;
   json["friction"] = request.friction;

@@ -28,10 +28,11 @@ class NearGaps {
   using Vector = certificates::Vector<Dim>;
 
   /// x: any positions of the mesh, from which the tree is built. `fixed`: by vertex. `exclusions`: nothing, or pairs of
-  /// groups that do not count. The arguments but x have to outlive this.
+  /// groups that do not count. `excluded`: keys of pairs that do not count either, ascending. The arguments but x have
+  /// to outlive this.
   NearGaps(const Mesh& mesh, std::span<const Vector> x, std::span<const std::uint8_t> fixed,
-           const Exclusions* exclusions)
-      : features_(mesh, Dim), fixed_(fixed), exclusions_(exclusions) {
+           const Exclusions* exclusions, const std::vector<certificates::PairKey>& excluded)
+      : features_(mesh, Dim), fixed_(fixed), exclusions_(exclusions), excluded_(excluded) {
     std::vector<Vector> centres;
     std::vector<bool> cell_is_fixed;
     for (const auto& cell : features_.cells()) {
@@ -40,6 +41,8 @@ class NearGaps {
     }
     tree_ = certificates::Hierarchy<Dim>(centres, cell_is_fixed);
   }
+
+  const certificates::Features& features() const { return features_; }
 
   /// The gaps at positions x. `reach`: by vertex. O(n log n) where few are near.
   std::vector<double> operator()(std::span<const Vector> x, std::span<const double> reach) {
@@ -79,6 +82,7 @@ class NearGaps {
         exclusions_->excluded(exclusions_->groups[all.front()], exclusions_->groups[all.back()])) {
       return;
     }
+    if (std::ranges::binary_search(excluded_, pair.key)) return;
     std::array<Vector, 4> corners;
     for (std::size_t i = 0; i < all.size(); ++i) corners[i] = x[all[i]];
     const double gap =
@@ -90,6 +94,7 @@ class NearGaps {
   certificates::Hierarchy<Dim> tree_;
   std::span<const std::uint8_t> fixed_;
   const Exclusions* exclusions_;
+  const std::vector<certificates::PairKey>& excluded_;
 };
 
 }  // namespace noli

@@ -18,6 +18,7 @@
 #include "certify/proofs/proof_route.h"
 #include "certify/repair/carried.h"
 #include "certify/repair/changes.h"
+#include "certify/repair/excluded_pairs.h"
 #include "certify/repair/repaired_frames.h"
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
@@ -110,13 +111,14 @@ std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, st
 }
 
 /// What moves as given: of each cell the vertices that do, as a cell. An edge of two cells is there twice, as a feature
-/// of one may meet a feature of the other.
-Mesh fixed_parts(const Mesh& mesh, std::span<const std::uint8_t> fixed) {
+/// of one may meet a feature of the other. `whole`: of cells that move as a whole alone.
+Mesh fixed_parts(const Mesh& mesh, std::span<const std::uint8_t> fixed, bool whole) {
   Mesh parts;
   parts.vertex_count = mesh.vertex_count;
   const auto take = [&](const auto& cell) {
     std::vector<VertexId> part;
     std::ranges::copy_if(cell, std::back_inserter(part), [&](VertexId v) { return fixed[v] != 0; });
+    if (whole && part.size() != cell.size()) return;
     if (part.size() == 3) parts.faces.push_back({part[0], part[1], part[2]});
     if (part.size() == 2) parts.edges.push_back({part[0], part[1]});
     if (part.size() == 1) parts.points.push_back(part[0]);
@@ -158,10 +160,12 @@ class Repair {
     mass_ = masses_of(request, mesh_, x_);
     contact_.emplace(mesh_, x_, mass_, fixed_, exclusions(),
                      StepContact::Wanted{request.thickness, request.restitution, request.friction});
-    gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions());
-    filter_.emplace(mesh_, mass_, fixed_, *contact_, *gaps_, stop_, [this](double part) { tell(part); });
+    gaps_.emplace(mesh_, vectors_of<Dim>(x_), fixed_, exclusions(), excluded_pairs_);
+    filter_.emplace(mesh_, mass_, fixed_, *contact_, excluded_pairs_, *gaps_, stop_,
+                    [this](double part) { tell(part); });
     verifier_.emplace(mesh_, options(false, true));
-    Mesh parts = fixed_parts(mesh_, fixed_);
+    // Parts of cells that intersect may be apart in the first frame, and yet are not compared later.
+    Mesh parts = fixed_parts(mesh_, fixed_, request.only_new);
     if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
     if (request.spread > 0) carried_.emplace(mesh_, fixed_, request.spread);
     outcome.cells = mesh_.cell_count();
@@ -173,6 +177,7 @@ class Repair {
   /// Throws Ended, Stopped.
   void operator()() {
     bool more = true;
+    if (request_.only_new) leave_out_baseline();
     if (auto last = frames_.begin(sequence_.mesh())) {
       x_ = std::move(last->positions);
       outcome_.steps = outcome_.steps_before = last->step;
@@ -234,6 +239,7 @@ class Repair {
     options.first_only = first_only;
     options.max_reports = 1;
     options.exclusions = exclusions();
+    options.only_new = request_.only_new;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     return options;
@@ -248,8 +254,19 @@ class Repair {
 
   // --- What cannot be ------------------------------------------------------------------------------------------------
 
+  /// Cells that intersect in the first frame may go on so.
+  void leave_out_baseline() {
+    const std::vector<InitialIntersection>& pairs = verifier_->baseline(x_);
+    end_if(stopped());
+    outcome_.baseline = pairs.size();
+    if (pairs.empty()) return;
+    excluded_pairs_ = excluded_pairs(gaps_->features(), Baseline(mesh_, pairs));
+    outcome_.notes.push_back(fmt::format(
+        "{} pairs of cells intersect in the first frame: these are not compared (--only-new)", pairs.size()));
+  }
+
   void require_free_start() {
-    SequenceVerifier at_rest(mesh_, options(true, false));
+    SequenceVerifier at_rest(mesh_, options(!request_.only_new, false));
     const StepResult found = at_rest.step(x_, x_);
     end_if(!found.complete && !found.touches());
     if (!found.touches()) return;
@@ -413,6 +430,7 @@ class Repair {
   std::optional<Groups> groups_;
   std::optional<CarriedDisplacement> carried_;
   std::optional<StepContact> contact_;
+  std::vector<certificates::PairKey> excluded_pairs_;  ///< features of cells that intersect in the first frame
   std::optional<NearGaps<Dim>> gaps_;
   std::optional<StepFilter<Dim>> filter_;
   std::optional<SequenceVerifier> verifier_;        ///< of the new frames
@@ -442,6 +460,7 @@ void verify_all(const RepairRequest& request, std::vector<std::filesystem::path>
   again.dimension = request.dimension;
   again.threads = request.threads;
   again.points = request.points;
+  again.only_new = request.only_new;
   again.proof = request.proof;
   again.check = request.check;
   again.deadline = request.deadline;

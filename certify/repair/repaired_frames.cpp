@@ -88,7 +88,8 @@ std::string RepairedFrames::fingerprint() const {
   std::string text = fmt::format("{}\n{} {} {} {} {} {} {}\n", version_commit(), request_.pattern, request_.fixed_first,
                                  request_.restitution, request_.friction, request_.points,
                                  request_.thickness.value_or(0), request_.dimension.value_or(0));
-  text += fmt::format("{} {} {}\n", request_.masses, request_.spread, request_.reading.polygons == PolygonRule::refuse);
+  text += fmt::format("{} {} {} {}\n", request_.masses, request_.spread, request_.only_new,
+                      request_.reading.polygons == PolygonRule::refuse);
   if (request_.masses != "size" && request_.masses != "uniform") text += read_whole_file(request_.masses);
   for (const std::string& key : request_.reading.keys) text += key + '\n';
   for (const std::string& body : request_.fixed_bodies) text += body + '\n';

@@ -62,15 +62,17 @@ struct FilteredStep {
 template <int Dim>
 class StepFilter {
  public:
-  /// `fixed`: by vertex, nonzero if it moves as given. `progress`: called with the share of the step that is done. The
+  /// `fixed`: by vertex, nonzero if it moves as given. `excluded`: keys of pairs on which no contact acts, ascending;
+  /// beside those that `contact` excludes. `progress`: called with the share of the step that is done. The
   /// other arguments have to outlive this.
   StepFilter(const Mesh& mesh, std::span<const double> mass, std::span<const std::uint8_t> fixed,
-             const StepContact& contact, NearGaps<Dim>& gaps, const integrator::Stop& stop,
-             std::function<void(double)> progress)
+             const StepContact& contact, const std::vector<certificates::PairKey>& excluded, NearGaps<Dim>& gaps,
+             const integrator::Stop& stop, std::function<void(double)> progress)
       : mesh_(mesh),
         mass_(mass),
         fixed_(fixed),
         contact_(contact),
+        excluded_(excluded),
         gaps_(gaps),
         stop_(stop),
         progress_(std::move(progress)) {}
@@ -171,6 +173,7 @@ class StepFilter {
     model.most_breakpoints = std::max<std::size_t>(4'000'000, 8 * model.x.size());
     model.contact = contact;
     model.contact->most_layers = most_layers;
+    model.contact->excluded_pairs = excluded_;
     return model;
   }
 
@@ -192,6 +195,7 @@ class StepFilter {
   std::span<const double> mass_;
   std::span<const std::uint8_t> fixed_;
   const StepContact& contact_;
+  const std::vector<certificates::PairKey>& excluded_;
   NearGaps<Dim>& gaps_;
   const integrator::Stop& stop_;
   std::function<void(double)> progress_;

@@ -54,6 +54,7 @@ struct RepairRequest {
   int threads = 0;                              ///< threads of the exact decisions; 0: all there are
   bool points = false;                          ///< vertices that no cell refers to are particles
   std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
+  bool only_new = false;                        ///< cells that intersect in the first frame may go on so
   std::uint64_t fixed_first = 0;                ///< the first N vertices move as given
   std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
@@ -127,6 +128,7 @@ struct RepairOutcome {
   std::vector<RepairedBody> by_body;  ///< of bodies with names
   std::vector<FrameBody> bodies;      ///< where they are in the mesh; empty if frames have no bodies
   std::uint64_t fixed = 0;            ///< vertices that move as given
+  std::uint64_t baseline = 0;         ///< with only_new: pairs of cells that intersect in the first frame
   /// What fixed vertices took in the steps of this call: relative to the mean mass of a vertex, times length per step.
   Position momentum_into_fixed{};
   std::size_t frames = 0;    ///< that are written

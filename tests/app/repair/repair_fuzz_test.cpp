@@ -85,7 +85,20 @@ class RepairFuzz : public testing::Test {
       EXPECT_EQ(json["verdict"], "proved") << number;
       EXPECT_EQ(run_noli({"verify", "--order", "natural", out.string()}).exit_code, 0) << number;
     }
+    if (truth.initial) repair_what_is_new(words, out, number);
     return end;
+  }
+
+  /// The same without what intersects in the first frame.
+  void repair_what_is_new(std::vector<std::string> words, const fs::path& out, std::uint64_t number) const {
+    words.insert(words.end(), {"--only-new", "--force"});
+    const Process process = run_noli(words);
+    const nlohmann::json json = nlohmann::json::parse(process.out, nullptr, false);
+    ASSERT_FALSE(json.is_discarded()) << number << ": " << process.exit_code << process.err;
+    EXPECT_GT(json["baseline"].get<std::uint64_t>() + (json["end"] == "start_touches" ? 1 : 0), 0u) << number;
+    if (json["end"] != "done") return;
+    EXPECT_EQ(json["verdict"], "proved") << number;
+    EXPECT_EQ(run_noli({"verify", "--only-new", "--order", "natural", out.string()}).exit_code, 0) << number;
   }
 
   /// Motions, with some vertices `fixed` or none.
