@@ -3,13 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <iterator>
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <noli/errors.h>
@@ -69,38 +72,83 @@ ExitCode show_help(const CLI::App& command) {
   return ExitCode::bad_input;
 }
 
+/// The command line of one command, or of all.
+class Program {
+ public:
+  /// `only`: the name of a command; empty, or another word: all of them.
+  explicit Program(std::string_view only) : app_(description, "noli") {
+    use_help(app_);
+    app_.footer(program_footer);
+    app_.require_subcommand(1);
+    app_.set_version_flag("-V,--version", version_and_parts,
+                          "Print version, commit, libraries, rounding self-test, and parts");
+    const bool known = is_command(only);
+    for (const auto& [name, add] : plain_commands) {
+      if (!known || name == only) commands_.push_back(add(app_));
+    }
+    if (!known || is_audit(only)) std::ranges::move(add_audits(app_), std::back_inserter(commands_));
+    if (!known) commands_.push_back(add_help(app_));
+  }
+  // Commands refer to the parser.
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  static bool is_command(std::string_view word) {
+    return is_audit(word) || std::ranges::any_of(plain_commands, [&](const auto& of) { return of.first == word; });
+  }
+  CLI::App& app() { return app_; }
+
+  /// Throws CLI::ParseError for a wrong command line.
+  ExitCode parse_and_run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      write_standard_output(app_.help());  // of the subcommand, where one was given
+      return ExitCode::holds;
+    } catch (const CLI::CallForVersion&) {
+      write_standard_output(version_and_parts());
+      return ExitCode::holds;
+    }
+    for (const Command& command : commands_) {
+      if (command.parser->parsed()) return command.run();
+    }
+    return complain(ExitCode::failure, "internal error: a command without an action");
+  }
+
+ private:
+  static constexpr std::array<std::pair<std::string_view, Command (*)(CLI::App&)>, 10> plain_commands = {
+      {{"verify", add_verify},
+       {"check", add_check},
+       {"simulate", add_simulate},
+       {"explain", add_explain},
+       {"repair", add_repair},
+       {"export", add_export},
+       {"report", add_report},
+       {"info", add_info},
+       {"ccd", add_ccd},
+       {"schema", add_schema}}};
+  static bool is_audit(std::string_view word) { return word == "audit" || word == "fuzz"; }
+
+  CLI::App app_;
+  std::vector<Command> commands_;
+};
+
 ExitCode parse_and_run(int argc, char** argv) {
-  CLI::App app(description, "noli");
-  use_help(app);
-  app.footer(program_footer);
-  app.require_subcommand(1);
-  app.set_version_flag("-V,--version", version_and_parts,
-                       "Print version, commit, libraries, rounding self-test, and parts");
-  std::vector<Command> commands = {
-      add_verify(app), add_check(app),  add_simulate(app), add_explain(app), add_repair(app),
-      add_export(app), add_report(app), add_info(app),     add_ccd(app),
-  };
-  std::ranges::move(add_audits(app), std::back_inserter(commands));
-  commands.push_back(add_schema(app));
-  commands.push_back(add_help(app));
+  if (argc > 1 && Program::is_command(argv[1])) {
+    try {
+      return Program(argv[1]).parse_and_run(argc, argv);
+    } catch (const CLI::ParseError&) {  // explained below, by a parser that knows all commands
+    }
+  }
+  Program program("");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    write_standard_output(app.help());  // of the subcommand, where one was given
-    return ExitCode::holds;
-  } catch (const CLI::CallForVersion&) {
-    write_standard_output(version_and_parts());
-    return ExitCode::holds;
+    return program.parse_and_run(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (const auto wrong = wrong_usage(app, arguments, error)) return complain(ExitCode::bad_input, *wrong);
+    if (const auto wrong = wrong_usage(program.app(), arguments, error)) return complain(ExitCode::bad_input, *wrong);
     std::vector<std::string> rest;
-    return show_help(named_command(app, arguments, rest));
+    return show_help(named_command(program.app(), arguments, rest));
   }
-  for (const Command& command : commands) {
-    if (command.parser->parsed()) return command.run();
-  }
-  return complain(ExitCode::failure, "internal error: a command without an action");
 }
 
 ExitCode guarded(int argc, char** argv) {

@@ -19,6 +19,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
+#include <tbb/scalable_allocator.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -81,6 +82,10 @@ void run_std(std::size_t count, int threads, const Task& task) {
 }
 
 #ifdef NOLI_PARALLEL_TBB
+/// Makes this program load TBB's allocator when it starts. TBB would do so in its first loop, and glibc crashes if memory
+/// ends while it loads a library.
+[[maybe_unused]] void (*const volatile loads_allocator)(void*) = &scalable_free;
+
 /// Arenas that no loop uses at the moment. TBB frees an arena only after all its threads have left it, so on a busy
 /// machine a new one for each loop would pile up: 7 KB for each step of a sequence.
 class Arenas {
