@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests `noli repair --spread`: what contact moves takes its surroundings along, and nothing beyond them.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/app/repair/repair_fixture.h"
 
@@ -104,6 +106,45 @@ TEST_F(RepairSpread, DeepContactWithoutItGetsAdvice) {
   EXPECT_NE(alone.out.find("--spread"), std::string::npos) << alone.out;
   const Process spread = run_noli(repair(written_, {"--fixed-first", "3", "--spread", "3", "--force"}));
   EXPECT_EQ(spread.out.find("--spread"), std::string::npos) << spread.out;
+}
+
+/// A cloth of 30 by 30 squares, which falls through a moving ball of radius 0.22 in frames that ignore contact.
+class RepairDrape : public Repair {
+ protected:
+  static constexpr VertexId ball = 1026;
+
+  void SetUp() override {
+    fs::create_directory(made_);
+    const std::string command = std::string(NOLI_UNTIDY_FRAMES) + " drape 30 '" + made_ + "' > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+
+  /// How far the cloth is in the ball, in frame k as given.
+  double depth(int k) const {
+    const auto x = positions(fmt::format("{}/{:03}.ply", made_, k));
+    double deepest = 0;
+    for (VertexId v = ball; v < x.size(); ++v) {
+      deepest = std::max(deepest, 0.22 - std::hypot(x[v][0] - 0.002 * k, x[v][1], x[v][2] + 0.1 - 0.004 * k));
+    }
+    return deepest;
+  }
+
+  std::string made_ = folder.path("drape");
+};
+
+TEST_F(RepairDrape, SlowMovesNoMoreThanTwiceTheDepth) {
+  const Json json =
+      json_of(repair({made_}, {"--fixed-first", std::to_string(ball), "--spread", "5", "--friction", "0.3"}), 0);
+  EXPECT_EQ(json["verdict"], "proved");
+  EXPECT_GT(json["changed"].size(), 40u);
+  EXPECT_GT(json["copied"], 10) << "frames before the cloth touches";
+  double deepest = 0;
+  for (const Json& step : json["changed"]) {
+    // Where the cloth is on its way out, what was moved before goes back slowly: the depth so far is what counts.
+    deepest = std::max(deepest, depth(step["step"].get<int>()));
+    EXPECT_LE(step["rms"], 2 * std::max(deepest, 0.02)) << step;
+  }
+  EXPECT_GT(deepest, 0.2);
 }
 
 }  // namespace
