@@ -21,7 +21,6 @@
 #include "report/figures/run_figure.h"
 #include "report/figures/run_picture.h"
 #include "report/page/report_results.h"
-#include "report/repaired_motions.h"
 
 namespace noli::app {
 namespace {
@@ -151,12 +150,10 @@ report::Answer export_answer(const ExportRequest& request, const ExportOutcome& 
 ExitCode run(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   begin_work(arguments.time_limit);
-  if (std::filesystem::is_regular_file(request.run)) {
-    if (report::is_of_repair(report::read_result(request.run))) return show_repair(arguments);
-    if (arguments.given) throw UsageError("--given: is for a result of noli repair; expected none without it");
-    return show_contact(arguments);
-  }
-  if (arguments.given) throw UsageError("--given: is for a result of noli repair; expected none without it");
+  const bool result = std::filesystem::is_regular_file(request.run);
+  if (result && report::is_of_repair(report::read_result(request.run))) return show_repair(arguments);
+  if (arguments.given) throw UsageError("--given: is for a result of noli repair (--json)");
+  if (result) return show_contact(arguments);
   if (arguments.contact)
     throw UsageError("--contact: is for a result of noli verify (--json); expected no run with it");
   note_if_being_written(request.run);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -72,10 +73,10 @@ ExitCode show_help(const CLI::App& command) {
   return ExitCode::bad_input;
 }
 
-/// The command line of one command, or of all.
+/// The command line of one command, or of all. All of them take 8,000 allocations, most of them for help texts.
 class Program {
  public:
-  /// `only`: the name of a command; empty, or another word: all of them.
+  /// `only`: the name of a command; another word: all of them.
   explicit Program(std::string_view only) : app_(description, "noli") {
     use_help(app_);
     app_.footer(program_footer);
@@ -98,8 +99,8 @@ class Program {
   }
   CLI::App& app() { return app_; }
 
-  /// Throws CLI::ParseError for a wrong command line.
-  ExitCode parse_and_run(int argc, char** argv) {
+  /// Nothing if run() is to follow: it did not ask for help alone. Throws CLI::ParseError for a wrong command line.
+  std::optional<ExitCode> parse(int argc, char** argv) {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -109,6 +110,10 @@ class Program {
       write_standard_output(version_and_parts());
       return ExitCode::holds;
     }
+    return std::nullopt;
+  }
+
+  ExitCode run() const {
     for (const Command& command : commands_) {
       if (command.parser->parsed()) return command.run();
     }
@@ -135,20 +140,26 @@ class Program {
 
 ExitCode parse_and_run(int argc, char** argv) {
   if (argc > 1 && Program::is_command(argv[1])) {
+    Program program(argv[1]);
+    bool parsed = false;
+    std::optional<ExitCode> helped;
     try {
-      return Program(argv[1]).parse_and_run(argc, argv);
+      helped = program.parse(argc, argv);
+      parsed = true;
     } catch (const CLI::ParseError&) {  // explained below, by a parser that knows all commands
     }
+    if (parsed) return helped ? *helped : program.run();
   }
   Program program("");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
-    return program.parse_and_run(argc, argv);
+    if (const auto helped = program.parse(argc, argv)) return *helped;
   } catch (const CLI::ParseError& error) {
     if (const auto wrong = wrong_usage(program.app(), arguments, error)) return complain(ExitCode::bad_input, *wrong);
     std::vector<std::string> rest;
     return show_help(named_command(program.app(), arguments, rest));
   }
+  return program.run();
 }
 
 ExitCode guarded(int argc, char** argv) {

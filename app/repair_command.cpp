@@ -15,6 +15,7 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
+#include "certify/frame_files.h"
 #include "certify/repair/repaired_frames.h"
 #include "report/repair_report.h"
 #include "trajectory/formats/frame_names.h"
@@ -68,6 +69,17 @@ std::vector<OutputFile> outputs_of(const RepairArguments& arguments) {
   return files;
 }
 
+/// New frames would be read as given ones by the next call.
+void require_no_folder_read(const RepairRequest& request) {
+  std::error_code error;
+  const std::filesystem::path folder = parse_pattern(request.pattern).folder();
+  for (const auto& given : request.frames) {
+    if (!std::filesystem::is_directory(given, error)) continue;
+    if (!std::filesystem::equivalent(given, folder.empty() ? "." : folder, error)) continue;
+    throw UsageError("-o " + request.pattern + ": " + given.string() + " is read; choose another folder");
+  }
+}
+
 ExitCode run(RepairArguments& arguments) {
   RepairRequest& request = arguments.request;
   request.deadline = begin_work(arguments.time_limit);
@@ -80,6 +92,7 @@ ExitCode run(RepairArguments& arguments) {
     if (request.frames.empty()) {
       throw UsageError("`noli repair` needs FRAMES or bodies (--body); see `noli repair --help`");
     }
+    require_no_folder_read(request);
     request.frames = named_frames(std::move(request.frames));
   }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());

@@ -25,7 +25,6 @@
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
 #include "report/page/report_verdict.h"
-#include "report/repaired_motions.h"
 #include "trajectory/formats/base64.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frames.h"

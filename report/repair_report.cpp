@@ -9,6 +9,7 @@
 #include "certify/body_names.h"
 #include "certify/contact_report.h"
 #include "report/input_report.h"
+#include "report/verify_place.h"
 #include "trajectory/text.h"
 
 namespace noli::report {
@@ -40,6 +41,7 @@ Json bodies_json(const RepairOutcome& outcome) {
     const FrameBody& body = outcome.bodies[i];
     list.push_back({{"name", body.name},
                     {"still", body.still},
+                    {"fixed", moved.fixed},
                     {"first_vertex", body.first_vertex},
                     {"vertices", body.vertices},
                     {"moved", moved.moved},
@@ -52,11 +54,11 @@ Json bodies_json(const RepairOutcome& outcome) {
 Json outputs_json(const RepairOutcome& outcome) {
   Json list = Json::array();
   for (const RepairedFrame& frame : outcome.written) {
-    const FrameFacts& facts = frame.facts;
-    Json json = {{"file", facts.file}, {"time", frame.time}, {"what", frame.what}};
-    json["bytes"] = facts.looked_at ? Json(facts.bytes) : Json(nullptr);
-    json["sha256"] = facts.looked_at ? Json(hex(facts.sha256)) : Json(nullptr);
-    list.push_back(std::move(json));
+    list.push_back({{"file", frame.facts.file},
+                    {"time", frame.time},
+                    {"what", frame.what},
+                    {"bytes", frame.facts.bytes},
+                    {"sha256", hex(frame.facts.sha256)}});
   }
   return list;
 }
@@ -86,29 +88,42 @@ std::string distance_text(double distance, const RepairOutcome& outcome) {
   return fmt::format("{} ({:.2g} mean edges)", digits4(distance), distance / outcome.mean_edge);
 }
 
-std::string repaired_steps_text(const RepairOutcome& outcome) {
-  constexpr std::size_t most = 12;
-  if (outcome.changed.empty()) {
-    const bool all = outcome.end == RepairEnd::done && outcome.steps_before == 0;
-    return all ? "No step touches; all frames are as given.\n" : "";
-  }
-  std::string text = fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", "step", "vertices", "largest", "rms",
-                                 "inserted", "deepest layer");
-  for (std::size_t i = 0; i < std::min(most, outcome.changed.size()); ++i) {
+/// Of the steps that were changed, from `first` on.
+std::string rows_of_steps(const RepairOutcome& outcome, std::size_t first, std::size_t end) {
+  std::string text;
+  for (std::size_t i = first; i < end; ++i) {
     const RepairedStep& step = outcome.changed[i];
     text += fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", step.step, step.moved, digits4(step.largest),
                         digits4(step.rms), step.inserted, step.deepest);
   }
-  if (outcome.changed.size() > most) text += fmt::format("  ... and {} more (--json)\n", outcome.changed.size() - most);
+  return text;
+}
+
+constexpr std::size_t most_steps = 12;
+
+/// The table of the first steps, and what stands below it.
+void put_steps(const RepairOutcome& outcome, Answer& answer) {
+  if (outcome.changed.empty()) {
+    const bool all = outcome.end == RepairEnd::done && outcome.steps_before == 0;
+    if (all) answer.text += "No step touches; all frames are as given.\n";
+    return;
+  }
+  const std::size_t shown = std::min(most_steps, outcome.changed.size());
+  answer.text += fmt::format("{:>6}  {:>8}  {:>10}  {:>10}  {:>8}  {:>13}\n", "step", "vertices", "largest", "rms",
+                             "inserted", "deepest layer");
+  answer.text += rows_of_steps(outcome, 0, shown);
+  if (outcome.changed.size() > shown)
+    answer.text += fmt::format("  ... and {} more (-v)\n", outcome.changed.size() - shown);
   for (const RepairedBody& body : outcome.by_body) {
     if (body.moved == 0) continue;
-    text += fmt::format("{}: moved by {} at most, root mean square {}.\n", on_one_line(body.name),
-                        distance_text(body.largest, outcome), digits4(body.rms));
+    answer.text += fmt::format("{}: moved by {} at most, root mean square {}.\n", on_one_line(body.name),
+                               distance_text(body.largest, outcome), digits4(body.rms));
   }
   const RepairedStep& most_changed = *largest_change(outcome);
   const std::string vertex = on_one_line(names_of_frames(outcome.bodies).vertex(most_changed.vertex));
-  return text + fmt::format("Moved most: vertex {} in step {}, by {}.\n", vertex, most_changed.step,
-                            distance_text(most_changed.largest, outcome));
+  answer.text += fmt::format("Moved most: vertex {} in step {}, by {}.\n", vertex, most_changed.step,
+                             distance_text(most_changed.largest, outcome));
+  answer.details += rows_of_steps(outcome, shown, outcome.changed.size());
 }
 
 std::string repair_place(const RepairOutcome& outcome) {
@@ -121,8 +136,9 @@ std::string repair_place(const RepairOutcome& outcome) {
   const auto settled = [&outcome] {
     const VerifyOutcome& verified = *outcome.verified;
     if (verified.verdict == Verdict::undecided) return std::string("all are written, but the last check was cut short");
-    if (!verified.checker) return std::string("nothing touches (decided exactly, not checked)");
-    return fmt::format("nothing touches (accepted by {} {})", verified.checker->name, verified.checker->version);
+    const std::string stated = nothing_touches_text(verified);
+    if (!verified.checker) return stated + " (decided exactly, not checked)";
+    return fmt::format("{} (accepted by {} {})", stated, verified.checker->name, verified.checker->version);
   };
   const std::string so_far = fmt::format("{} of {} steps repaired", outcome.steps, outcome.steps_total);
   switch (outcome.end) {
@@ -143,7 +159,8 @@ std::string repair_place(const RepairOutcome& outcome) {
 /// Contact alone tears a mesh where a body went far into it.
 bool is_deep(const RepairOutcome& outcome) {
   constexpr double edges = 2;
-  return !outcome.changed.empty() && largest_change(outcome)->largest > edges * outcome.mean_edge;
+  return outcome.mean_edge > 0 && !outcome.changed.empty() &&
+         largest_change(outcome)->largest > edges * outcome.mean_edge;
 }
 
 std::string repair_advice(const RepairRequest& request, const RepairOutcome& outcome) {
@@ -157,11 +174,13 @@ std::string repair_advice(const RepairRequest& request, const RepairOutcome& out
     case RepairEnd::start_touches:
       return "separate them in the first frame, or leave them out: with --only-new all that intersects there, with "
              "--ignore groups of vertices; these may then pass through each other.";
-    case RepairEnd::blocked: return "let fewer vertices be fixed (--fixed-first), or leave the pair out with --ignore.";
+    case RepairEnd::blocked:
+      return "let fewer vertices be fixed (--fixed, --fixed-first), or leave the pair out with --ignore.";
     case RepairEnd::undecided:
       return spread.empty() ? "try another --thickness or --restitution, or let fewer vertices be fixed." : spread;
     case RepairEnd::interrupted:
-    case RepairEnd::out_of_time: return "--resume continues after the last complete step.";
+    case RepairEnd::out_of_time:
+      return "--resume continues after the last complete step; with --force it replaces results of the same names.";
   }
   return "";
 }
@@ -184,7 +203,9 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
+  json["points"] = request.points;
   json["fixed"] = outcome.fixed;
+  json["fixed_first"] = request.fixed_first;
   json["baseline"] = request.only_new ? Json(outcome.baseline) : Json(nullptr);
   json["thickness"] = outcome.thickness;
   json["restitution"] = request.restitution;
@@ -207,6 +228,8 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
                                     {"version", outcome.verified->checker->version},
                                     {"commit", outcome.verified->checker->commit}})
                             : Json(nullptr);
+  const bool stated = outcome.verified && outcome.verified->verdict != Verdict::undecided;
+  json["stated"] = stated ? Json(nothing_touches_text(*outcome.verified)) : Json(nullptr);
   const bool proof = request.proof && outcome.verified && outcome.verified->proof_begun;
   json["proof"] = proof ? Json(request.proof->string()) : Json(nullptr);
   json["inputs"] = inputs_json(outcome.inputs);
@@ -225,7 +248,7 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
                                outcome.steps_total);
   }
   if (outcome.end != RepairEnd::start_touches && outcome.thickness > 0) {
-    answer.text += repaired_steps_text(outcome);
+    put_steps(outcome, answer);
     answer.text += fmt::format("Aimed at: a gap of {} where cells are largest. Times of the frames: {}\n",
                                distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
   }

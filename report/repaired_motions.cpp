@@ -10,6 +10,7 @@
 #include <noli/errors.h>
 #include "certify/process/hdf5_frames.h"
 #include "report/page/report_inputs.h"
+#include "trajectory/cells.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/sample.h"
 
@@ -42,8 +43,6 @@ std::unique_ptr<FrameSource> open(const Json& list, const FrameReading& reading,
 
 }  // namespace
 
-bool is_of_repair(const Json& result) { return result.value("schema", Json()) == "noli-repair"; }
-
 TimedFrames::TimedFrames(std::unique_ptr<FrameSource> source, std::vector<double> times)
     : source_(std::move(source)), times_(std::move(times)), sequence_(*source_, Motion::constant) {
   sequence_.next();
@@ -75,9 +74,15 @@ RepairedMotions repaired_motions(const Json& result, const fs::path& path) {
   for (std::size_t k = 0; k < given->count().value_or(0); ++k) given_times.push_back(static_cast<double>(k));
   for (const Json& frame : outputs) times.push_back(frame.at("time").get<double>());
   const std::string first = given->name(0), first_repaired = repaired->name(0);
-  RepairedMotions motions{std::make_unique<TimedFrames>(std::move(given), std::move(given_times)),
+  RepairedMotions motions{{},
+                          std::make_unique<TimedFrames>(std::move(given), std::move(given_times)),
                           std::make_unique<TimedFrames>(std::move(repaired), std::move(times))};
   require_same_mesh(motions.given->mesh(), first, motions.repaired->mesh(), first_repaired);
+  motions.mesh = motions.given->mesh();
+  if (result.at("points").get<bool>()) {
+    const std::vector<VertexId> loose = unreferenced_vertices(motions.mesh);
+    motions.mesh.points.insert(motions.mesh.points.end(), loose.begin(), loose.end());
+  }
   return motions;
 }
 

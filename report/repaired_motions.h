@@ -15,15 +15,13 @@
 
 namespace noli::report {
 
-bool is_of_repair(const Json& result);
-
 /// A motion at times that ascend: straight lines between frames with times.
 class TimedFrames {
  public:
   /// `times`: of the frames, ascending. Precondition: the source has at least one frame.
   TimedFrames(std::unique_ptr<FrameSource> source, std::vector<double> times);
 
-  const Mesh& mesh() const { return sequence_.mesh(); }
+  const Mesh& mesh() const { return sequence_.mesh(); }  ///< as read
   const std::vector<double>& times() const { return times_; }
   /// Precondition: between the times of the first and the last frame, and no earlier than the time before. Throws
   /// InputError, Stopped.
@@ -40,6 +38,7 @@ class TimedFrames {
 
 /// Both have the hashes that the result says. Times are in steps.
 struct RepairedMotions {
+  Mesh mesh;  ///< of both, with the particles that were compared
   std::unique_ptr<TimedFrames> given, repaired;
 };
 

@@ -19,8 +19,10 @@ class Place {
 
   std::string operator()() const {
     switch (outcome_.verdict) {
-      case Verdict::proved: return fmt::format("{}: {} ({})", looked_at(), untouched(), by_checker());
-      case Verdict::no_contact: return fmt::format("{}: {} (decided exactly, not checked)", looked_at(), untouched());
+      case Verdict::proved:
+        return fmt::format("{}: {} ({})", looked_at(), nothing_touches_text(outcome_), by_checker());
+      case Verdict::no_contact:
+        return fmt::format("{}: {} (decided exactly, not checked)", looked_at(), nothing_touches_text(outcome_));
       case Verdict::contact: return contact();
       case Verdict::too_near: return near();
       case Verdict::undecided:
@@ -46,15 +48,6 @@ class Place {
                                              ending.some_ended_early ? "at least " : "", *ending.windows_total)
                                : steps;
     return fmt::format("{}, {} of {} s", of, digits4(ending.time), *ending.duration);
-  }
-
-  std::string untouched() const {
-    std::string text = nothing_touches_in_short(outcome_.not_compared);
-    text += distance_phrase(outcome_.claim);
-    Claim others = outcome_.claim;
-    if (outcome_.not_compared.any()) others.excluded.clear();  // named above
-    for (const std::string& phrase : weakenings(others)) text += "; " + phrase;
-    return text;
   }
 
   std::string by_checker() const {
@@ -93,6 +86,15 @@ class Place {
 };
 
 }  // namespace
+
+std::string nothing_touches_text(const VerifyOutcome& outcome) {
+  std::string text = nothing_touches_in_short(outcome.not_compared);
+  text += distance_phrase(outcome.claim);
+  Claim others = outcome.claim;
+  if (outcome.not_compared.any()) others.excluded.clear();  // named above
+  for (const std::string& phrase : weakenings(others)) text += "; " + phrase;
+  return text;
+}
 
 const char* steps_word(const VerifyRequest& request, std::size_t count) {
   if (request.run) return count == 1 ? "window" : "windows";

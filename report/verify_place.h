@@ -29,6 +29,10 @@ bool intersects_first(const VerifyOutcome& outcome);
 /// Precondition: the outcome is not complete.
 const char* why_incomplete(const VerifyOutcome& outcome);
 
+/// "nothing touches", and what makes that weaker: pairs that are not compared, dimensions, particles. Precondition: the
+/// verdict says so.
+std::string nothing_touches_text(const VerifyOutcome& outcome);
+
 /// One line, without the verdict itself.
 std::string place_of(const VerifyRequest& request, const VerifyOutcome& outcome);
 

@@ -3,6 +3,7 @@
 // Counts how far a repair has moved vertices from where they were given.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -37,8 +38,9 @@ class Distances {
 /// The changes of all steps, and those of each body.
 class Changes {
  public:
-  /// `bodies`: in the order of their vertices; none for frames without bodies.
-  explicit Changes(std::vector<FrameBody> bodies) : bodies_(std::move(bodies)), of_body_(bodies_.size()) {}
+  /// `bodies`: in the order of their vertices; none for frames without bodies. `fixed`: by vertex.
+  Changes(std::vector<FrameBody> bodies, std::span<const std::uint8_t> fixed)
+      : bodies_(std::move(bodies)), fixed_(fixed), of_body_(bodies_.size()) {}
 
   /// A step that ends at x where y was given.
   Distances add(std::span<const Position> x, std::span<const Position> y) {
@@ -60,13 +62,16 @@ class Changes {
     std::vector<RepairedBody> all;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Distances& d = of_body_[i];
-      all.push_back({bodies_[i].name, d.moved(), d.largest(), d.root_mean_square()});
+      const auto body = fixed_.subspan(bodies_[i].first_vertex, bodies_[i].vertices);
+      const bool fixed = std::ranges::all_of(body, [](std::uint8_t of) { return of != 0; });
+      all.push_back({bodies_[i].name, fixed, d.moved(), d.largest(), d.root_mean_square()});
     }
     return all;
   }
 
  private:
   std::vector<FrameBody> bodies_;
+  std::span<const std::uint8_t> fixed_;
   std::vector<Distances> of_body_;
 };
 

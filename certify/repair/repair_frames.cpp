@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <noli/errors.h>
@@ -13,19 +14,19 @@
 #include "certificates/cells.h"
 #include "certify/groups.h"
 #include "certify/json.h"
+#include "certify/not_compared.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/proof_route.h"
-#include "certify/repair/carried.h"
 #include "certify/repair/changes.h"
 #include "certify/repair/excluded_pairs.h"
 #include "certify/repair/repaired_frames.h"
+#include "certify/repair/spread.h"
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
 #include "certify/simulate/retries.h"
 #include "certify/stopwatch.h"
 #include "trajectory/cells.h"
-#include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
@@ -143,7 +144,7 @@ class Repair {
         mesh_(sequence.mesh()),
         fixed_(fixed_vertices(request, mesh_.vertex_count, source.bodies())),
         stop_([this] { return stopped(); }),
-        changes_(source.bodies()),
+        changes_(source.bodies(), fixed_),
         x_(sequence.x_t0().begin(), sequence.x_t0().end()) {
     if (request.points) {
       const auto loose = unreferenced_vertices(mesh_);
@@ -167,7 +168,7 @@ class Repair {
     // Parts of cells that intersect may be apart in the first frame, and yet are not compared later.
     Mesh parts = fixed_parts(mesh_, fixed_, request.only_new);
     if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
-    if (request.spread > 0) carried_.emplace(mesh_, fixed_, request.spread);
+    if (request.spread > 0) spread_.emplace(mesh_, fixed_, request.spread);
     outcome.cells = mesh_.cell_count();
     outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
     outcome.thickness = contact_->greatest_bound();
@@ -177,8 +178,9 @@ class Repair {
   /// Throws Ended, Stopped.
   void operator()() {
     bool more = true;
+    auto last = frames_.begin(sequence_.mesh());
     if (request_.only_new) leave_out_baseline();
-    if (auto last = frames_.begin(sequence_.mesh())) {
+    if (last) {
       x_ = std::move(last->positions);
       outcome_.steps = outcome_.steps_before = last->step;
       for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
@@ -254,20 +256,28 @@ class Repair {
 
   // --- What cannot be ------------------------------------------------------------------------------------------------
 
-  /// Cells that intersect in the first frame may go on so.
+  /// Cells that intersect in the first frame may go on so. Precondition: x_ is that frame.
   void leave_out_baseline() {
-    const std::vector<InitialIntersection>& pairs = verifier_->baseline(x_);
+    try {
+      verifier_->baseline(x_);
+      if (fixed_verifier_) fixed_verifier_->baseline(x_);
+    } catch (const std::length_error& error) {
+      throw InputError(sequence_.name_t0(), "", std::string("--only-new: ") + error.what());
+    }
     end_if(stopped());
+    const std::vector<InitialIntersection>& pairs = verifier_->baseline(x_);
     outcome_.baseline = pairs.size();
     if (pairs.empty()) return;
-    excluded_pairs_ = excluded_pairs(gaps_->features(), Baseline(mesh_, pairs));
+    const Baseline baseline(mesh_, pairs);
+    excluded_pairs_ = ExcludedPairs(gaps_->features(), baseline)(stop_);
+    end_if(stopped());
     outcome_.notes.push_back(fmt::format(
         "{} pairs of cells intersect in the first frame: these are not compared (--only-new)", pairs.size()));
   }
 
   void require_free_start() {
-    SequenceVerifier at_rest(mesh_, options(!request_.only_new, false));
-    const StepResult found = at_rest.step(x_, x_);
+    const StepResult found = request_.only_new ? verifier_->step(x_, x_)  // which knows what to leave out
+                                               : SequenceVerifier(mesh_, options(true, false)).step(x_, x_);
     end_if(!found.complete && !found.touches());
     if (!found.touches()) return;
     RepairObstacle& obstacle = outcome_.obstacle.emplace();
@@ -328,10 +338,11 @@ class Repair {
   /// At the next given frame, or beside it as far as what is off takes its surroundings along.
   void take_aim() {
     aim_ = y_;
-    if (!carried_) return;
-    const std::vector<Position> carried = (*carried_)(x_, sequence_.x_t0());
+    if (!spread_) return;
+    const std::vector<Position> along = (*spread_)(x_, sequence_.x_t0(), stop_);
+    end_if(stopped());
     for (std::size_t v = 0; v < aim_.size(); ++v) {
-      for (std::size_t k = 0; k < 3; ++k) aim_[v][k] += carried[v][k];
+      for (std::size_t k = 0; k < 3; ++k) aim_[v][k] += along[v][k];
     }
   }
 
@@ -428,7 +439,7 @@ class Repair {
   std::vector<Position> aim_;    ///< where it would end without contact
   std::vector<double> mass_;
   std::optional<Groups> groups_;
-  std::optional<CarriedDisplacement> carried_;
+  std::optional<SpreadDisplacement> spread_;
   std::optional<StepContact> contact_;
   std::vector<certificates::PairKey> excluded_pairs_;  ///< features of cells that intersect in the first frame
   std::optional<NearGaps<Dim>> gaps_;
@@ -449,6 +460,16 @@ std::filesystem::path groups_by_number(const std::filesystem::path& ignore, cons
   for (const auto& [a, b] : named.exclusions.pairs) json["ignore"].push_back({named.names[a], named.names[b]});
   write_file(folder / "groups.json", json.dump());
   return folder / "groups.json";
+}
+
+/// What was verified last has to be what was written.
+void require_written(const RepairOutcome& outcome) {
+  const std::vector<FrameFacts>& read = outcome.verified->inputs;
+  for (std::size_t k = 0; k < std::min(read.size(), outcome.written.size()); ++k) {
+    const FrameFacts& written = outcome.written[k].facts;
+    if (!read[k].looked_at || read[k].sha256 == written.sha256) continue;
+    throw std::runtime_error(written.file + " has changed since it was written");
+  }
 }
 
 /// What `noli verify` says of the new frames.
@@ -474,7 +495,8 @@ void verify_all(const RepairRequest& request, std::vector<std::filesystem::path>
   ProofRoute route(again);
   outcome.verified = run_verify(again);
   route.check(*outcome.verified);
-  for (const std::string& note : outcome.verified->notes) outcome.notes.push_back(note);
+  require_written(outcome);
+  for (const std::string& note : outcome.verified->notes) outcome.notes.push_back("of the new frames: " + note);
   if (outcome.verified->not_checked) outcome.notes.push_back("not checked: " + *outcome.verified->not_checked);
   if (!outcome.verified->touches()) return;
   const std::string step = outcome.verified->first ? fmt::format(" in step {}", outcome.verified->first->step) : "";
@@ -504,20 +526,6 @@ bool look_at_all(const RepairRequest& request, FrameSource& source, FrameSequenc
   return false;
 }
 
-/// The hashes of the frames that were written, as far as nobody waits for an end.
-void look_at_written(const RepairRequest& request, RepairOutcome& outcome) {
-  const auto stop = [&request] {
-    return stop_asked().has_value() || (request.stop != nullptr && request.stop->load(std::memory_order_relaxed));
-  };
-  try {
-    for (RepairedFrame& frame : outcome.written) {
-      if (stop()) return;
-      frame.facts = file_facts(frame.facts.file, stop);
-    }
-  } catch (const Stopped&) {  // those after it keep their names alone
-  }
-}
-
 template <int Dim>
 void repair(const RepairRequest& request, FrameSource& source, FrameSequence& sequence, RepairOutcome& outcome) {
   Repair<Dim> work(request, source, sequence, outcome);
@@ -530,7 +538,6 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
   }
   work.finish();
   if (outcome.end == RepairEnd::done) verify_all(request, work.written(), outcome);
-  look_at_written(request, outcome);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -12,21 +13,29 @@
 #include <noli/version.h>
 #include "certify/json.h"
 #include "trajectory/blocks/sha256.h"
+#include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/stop.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
 namespace noli {
 namespace {
 
-constexpr const char* table_head = "file,time,given,what\n";
+constexpr const char* table_head = "file,time,given,what,sha256\n";
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string cell = "\"";
   for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
   return cell + '"';
+}
+
+/// The last two cells of a row.
+std::array<std::string, 2> ends_of(const std::string& row) {
+  const std::size_t last = row.rfind(','), before = row.rfind(',', last - 1);
+  return {row.substr(before + 1, last - before - 1), row.substr(last + 1)};
 }
 
 bool is_whole(double time) { return time == std::floor(time); }
@@ -133,7 +142,7 @@ void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>
   std::ifstream in(table_, std::ios::binary);
   std::string line, rows;
   std::vector<double> seen;
-  std::vector<std::string> what;
+  std::vector<RepairedFrame> frames;
   std::getline(in, line);
   while (std::getline(in, line) && !in.eof()) {
     const std::filesystem::path file = files_.file(seen.size());
@@ -145,31 +154,39 @@ void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>
     if (error != std::errc() || *rest != ',' || !later) break;
     seen.push_back(time);
     rows += line + '\n';
-    what.push_back(line.substr(line.rfind(',') + 1));
+    const auto [what, hash] = ends_of(line);
+    const FrameFacts facts = file_facts(file, [] { return stop_asked().has_value(); });
+    if (hex(facts.sha256) != hash) {
+      throw InputError(file.string(), "", "has changed since it was written; expected no --resume, but --force");
+    }
+    frames.push_back({time, what, facts});
     if (!is_whole(time)) continue;
     table += rows;
     rows.clear();
     times = seen;
-    what_ = what;
+    written_ = frames;
   }
 }
 
 std::size_t RepairedFrames::count(std::string_view what) const {
-  return static_cast<std::size_t>(std::ranges::count(what_, what));
+  return static_cast<std::size_t>(std::ranges::count(written_, what, &RepairedFrame::what));
 }
 
 void RepairedFrames::write(double time, const Frame& frame, bool given) {
   const auto k = static_cast<std::size_t>(time);
   const char* what = given ? "given" : is_whole(time) ? "repaired" : "inserted";
-  const std::string name = csv_cell(files_.file(files_.count()).filename().string());
+  const std::filesystem::path file = files_.file(files_.count());
+  const std::string name = csv_cell(file.filename().string());
   if (given && has_own_file(k)) {
     files_.add_copy(time, request_.frames[k]);
     what = "copied";
   } else {
     files_.add(time, frame, write_);
   }
-  pending_ += fmt::format("{},{},{},{}\n", name, time, is_whole(time) ? csv_cell(source_.name(k)) : "", what);
-  what_.emplace_back(what);
+  const FrameFacts facts = file_facts(file);
+  pending_ += fmt::format("{},{},{},{},{}\n", name, time, is_whole(time) ? csv_cell(source_.name(k)) : "", what,
+                          hex(facts.sha256));
+  written_.push_back({time, what, facts});
 }
 
 void RepairedFrames::commit() {
@@ -186,17 +203,14 @@ bool RepairedFrames::has_own_file(std::size_t k) const {
 }
 
 void RepairedFrames::finish(RepairOutcome& outcome) {
-  files_.finish();
+  if (files_.count() > 0) files_.finish();  // else it would only remove what an earlier repair wrote
   outcome.frames = files_.count();
   outcome.copied = count("copied");
   outcome.as_given = outcome.copied + count("given");
   outcome.inserted = count("inserted");
   outcome.removed = files_.removed();
   outcome.times = table_;
-  for (std::uint64_t i = 0; i < files_.count(); ++i) {
-    RepairedFrame& frame = outcome.written.emplace_back(files_.times()[i], what_[i]);
-    frame.facts.file = files_.file(i).string();
-  }
+  outcome.written = written_;
 }
 
 std::vector<std::filesystem::path> RepairedFrames::files() const {

@@ -5,7 +5,7 @@
 //
 // Files beside the frames, with the name of the pattern before them ("cloth_times.csv" of "cloth_%03d.ply")
 //   times.csv     a row for each frame: file, time in steps, the given frame of that time, what it is: "copied" byte
-//                 for byte, "given" (the same numbers), "repaired", "inserted"
+//                 for byte, "given" (the same numbers), "repaired", "inserted"; and the file's SHA-256
 //   repair.json   a hash of all that decides what is written: the given files, the options, the program
 #pragma once
 
@@ -33,7 +33,7 @@ class RepairedFrames {
     std::vector<Position> positions;
   };
   /// Begins the table; or, with `resume`, returns where an earlier repair ended. `mesh`: that of all frames. Throws
-  /// InputError for a frame of another mesh.
+  /// InputError for a frame of another mesh, or with other bytes than were written.
   std::optional<Last> begin(const Mesh& mesh);
 
   /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and gets the bytes of its file if that has
@@ -61,8 +61,8 @@ class RepairedFrames {
   std::string state_text_;
   bool resumes_;
   FrameFiles files_;
-  std::string pending_;            ///< rows that are not committed
-  std::vector<std::string> what_;  ///< each frame is, as the table says
+  std::string pending_;  ///< rows that are not committed
+  std::vector<RepairedFrame> written_;
 };
 
 /// The files beside the frames of a pattern. Throws UsageError for a pattern without a number.

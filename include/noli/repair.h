@@ -97,6 +97,7 @@ struct RepairedStep {
 /// How much a body was moved, in the steps of this call.
 struct RepairedBody {
   std::string name;
+  bool fixed = false;           ///< moves as given
   std::uint64_t moved = 0;      ///< vertices that did not end where they were given, counted anew in each step
   double largest = 0, rms = 0;  ///< distance of these from where they were given
 };
@@ -115,7 +116,7 @@ struct RepairObstacle {
 struct RepairedFrame {
   double time = 0;   ///< in steps
   std::string what;  ///< "copied", byte for byte from the given file; "given", the same numbers; "repaired"; "inserted"
-  FrameFacts facts;  ///< bytes and hash alone; only the name, if it was stopped before these were read
+  FrameFacts facts;  ///< name, bytes and hash alone
 };
 
 struct RepairOutcome {

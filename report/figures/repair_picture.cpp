@@ -20,7 +20,7 @@ namespace {
 /// The body fills the picture.
 void zoom_to(const std::string& name, const Json& bodies, View& view) {
   const auto body = std::ranges::find_if(bodies, [&](const Json& of) { return of.at("name") == name; });
-  if (body == bodies.end()) throw UsageError("--zoom " + name + ": the repair has no such body");
+  if (body == bodies.end()) throw UsageError("--zoom " + name + ": the repair names no such body");
   view.first = body->at("first_vertex").get<std::size_t>();
   view.count = body->at("vertices").get<std::size_t>();
 }
@@ -35,7 +35,7 @@ PictureOutcome drawn(const RepairPictureRequest& request, const Json& result) {
   TimedFrames& motion = request.given ? *motions.given : *motions.repaired;
   View view = view_from(request.view, result.at("dimension").get<int>());
   if (!request.view.zoom.empty()) zoom_to(request.view.zoom, result.at("bodies"), view);
-  const Frame frame{motion.mesh(), motion.at(request.time)};
+  const Frame frame{motions.mesh, motion.at(request.time)};
   try {
     const Picture picture = draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view);
     replace_file(request.output, png(picture));

@@ -53,18 +53,38 @@ class Repaired {
     const auto word = result_.at("verdict").get<std::string>();
     take_word(word, report_);
     Json& lines = report_.page["verdict"]["lines"];
+    const std::uint64_t before = count("steps_before");
     lines.push_back(fmt::format("noli repair says {} ({}): {} of {} steps changed, {} frames inserted.", spoken(word),
-                                page_name(path_), result_.at("changed").size(), count("steps"), count("inserted")));
-    if (const Json& checker = result_.at("checker"); checker.is_object()) {
-      lines.push_back(fmt::format("{} {} accepted the proof that nothing touches in the new frames.",
-                                  checker.at("name").get<std::string>(), checker.at("version").get<std::string>()));
+                                page_name(path_), result_.at("changed").size(), count("steps") - before,
+                                count("inserted")));
+    if (before > 0) {
+      add_caveat(
+          fmt::format("Earlier calls repaired the first {} steps: what they changed is not counted here.", before),
+          report_);
     }
+    put_stated();
     if (const Json most = most_changed(); !most.is_null()) lines.push_back(words_of(most));
     const auto end = result_.at("end").get<std::string>();
     if (end == "done") return;
     add_caveat(fmt::format("It ended ({}) after {} of {} steps: later frames are not repaired.", spoken(end),
                            count("steps"), count("steps_total")),
                report_);
+  }
+
+  void put_stated() {
+    const Json& stated = result_.at("stated");
+    if (!stated.is_string()) return;
+    const Json& checker = result_.at("checker");
+    const std::string who = checker.is_object()
+                                ? fmt::format("{} {} accepted the proof of it", checker.at("name").get<std::string>(),
+                                              checker.at("version").get<std::string>())
+                                : "decided exactly, not checked";
+    const std::string line = fmt::format("Of the new frames: {} ({}).", stated.get<std::string>(), who);
+    if (stated == "nothing touches") {
+      report_.page["verdict"]["lines"].push_back(line);
+    } else {
+      add_caveat(line, report_);  // something is not compared
+    }
   }
 
   /// Of the steps that were changed, the one with the largest displacement.
@@ -101,7 +121,7 @@ class Repaired {
   void put_motion() {
     const RepairedMotions motions = repaired_motions(result_, path_);
     TimedFrames& given = *motions.given;
-    const std::size_t vertices = given.mesh().vertex_count;
+    const std::size_t vertices = motions.mesh.vertex_count;
     MotionPacker packer(2 * vertices, limits_.most_bytes);
     const std::vector<double>& times = motions.repaired->times();
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -118,7 +138,7 @@ class Repaired {
     note += " Positions are rounded for the picture.";
     std::vector<double> ends;
     for (std::uint64_t step = 1; step <= count("steps"); ++step) ends.push_back(static_cast<double>(step));
-    const Mesh both = twice(given.mesh());
+    const Mesh both = twice(motions.mesh);
     put_scene({static_cast<int>(count("dimension")), both, parts(vertices), "steps", 0, ends, note}, packer.pack(),
               report_);
     put_focus(vertices);
@@ -131,9 +151,13 @@ class Repaired {
     std::vector<ReportPart> parts;
     for (const Json& body : result_.at("bodies")) {
       parts.push_back({body.at("name").get<std::string>(), body.at("first_vertex").get<std::uint64_t>(),
-                       body.at("vertices").get<std::uint64_t>(), body.at("still").get<bool>()});
+                       body.at("vertices").get<std::uint64_t>(), body.at("fixed").get<bool>()});
     }
-    if (parts.empty()) parts.push_back({"mesh", 0, vertices, false});
+    if (parts.empty()) {
+      const std::uint64_t fixed = std::min<std::uint64_t>(count("fixed_first"), vertices);
+      if (fixed > 0) parts.push_back({"fixed", 0, fixed, true});
+      if (fixed < vertices) parts.push_back({"mesh", fixed, vertices - fixed, false});
+    }
     parts.push_back({"as given", vertices, vertices, false, true});
     return parts;
   }

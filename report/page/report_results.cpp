@@ -370,6 +370,8 @@ Json read_result(const std::filesystem::path& path) {
 
 bool is_of_verify(const Json& result) { return result.contains("statement") && result.contains("reports"); }
 
+bool is_of_repair(const Json& result) { return result.value("schema", Json()) == "noli-repair"; }
+
 VerifiedSteps verified_steps(const Json& result, const std::filesystem::path& path) {
   return as_written(path, [&] {
     const Json& statement = result.at("statement");

@@ -19,6 +19,8 @@ Json read_result(const std::filesystem::path& path);
 /// Whether it is one of `noli verify`, with contacts and a statement.
 bool is_of_verify(const Json& result);
 
+bool is_of_repair(const Json& result);
+
 /// Of how many frames, or windows of a run, a result of `noli verify` is, and which of the two. Throws InputError when
 /// it does not say.
 struct VerifiedSteps {

@@ -177,6 +177,8 @@ TEST(Licences, TheCommandNeedsTheStatedLibrariesOnly) {
   ASSERT_EQ(exit_code, 0);
   ASSERT_NE(output.find("(NEEDED)"), std::string::npos);
   EXPECT_EQ(lines(unexpected_libraries(output)), "");
+  // See kernel/parallel.cpp: it is loaded with the program, not by TBB.
+  EXPECT_EQ(output.find("[libtbb.so") == std::string::npos, output.find("[libtbbmalloc.so") == std::string::npos);
 }
 
 /// The libraries that the program needs, directly or indirectly.

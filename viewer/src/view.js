@@ -30,7 +30,7 @@ function drawsInSoftware() {
 function coloursOf(scene, topology) {
   const list = new Uint8Array(3 * scene.vertices);
   const paint = (v, c) => list.set([c >> 16, (c >> 8) & 255, c & 255], 3 * v);
-  if (scene.parts.length <= 1) {
+  if (scene.parts.filter((part) => !part.given).length <= 1) {
     topology.components().forEach((component, v) => paint(v, colours.body(component)));
     return list;
   }

@@ -52,6 +52,26 @@ TEST_F(RepairOnlyNew, FixedCellsThatIntersectAtFirstBlockNothing) {
   EXPECT_EQ(blocked["end"], "blocked");
 }
 
+TEST_F(RepairOnlyNew, FixedCellsThatPartAndMeetAgainBlockNothing) {
+  const Words frames = {frame("e_0.ply", 0, 3), frame("e_1.ply", 10, 2), frame("e_2.ply", 0, -1)};
+  const Json json = json_of(repair(frames, {"--only-new", "--fixed-first", "6"}), 0);
+  EXPECT_EQ(json["verdict"], "proved");
+  EXPECT_EQ(json["baseline"], 1);
+  EXPECT_EQ(json["changed"].size(), 1u);
+}
+
+TEST_F(RepairOnlyNew, GroupsMayPassTooAndTheAnswerSaysBoth) {
+  const std::string groups = folder.write(
+      "groups.json", R"({"groups": {"deck": [[0, 2]], "plate": [[6, 8]]}, "ignore": [["deck", "plate"]]})");
+  const Json json = json_of(repair(sinking(), {"--only-new", "--ignore", groups}), 0);
+  EXPECT_EQ(json["verdict"], "proved");
+  EXPECT_TRUE(json["changed"].empty());
+  EXPECT_NE(json["stated"], "nothing touches");
+  const Json alone = json_of(repair(sinking(), {"--only-new", "--force"}), 0);
+  EXPECT_NE(alone["stated"].get<std::string>().find("1 pair of cells that intersects"), std::string::npos)
+      << alone["stated"];
+}
+
 TEST_F(RepairOnlyNew, NeighboursOfWhatIntersectsAreKeptApart) {
   // A sail of two faces: one stands through the deck, the other is before it, and would sink through with its edge.
   const auto sail = [&](const char* name, double z) {

@@ -79,7 +79,7 @@ TEST_F(RepairReport, RefusesWhatDoesNotFit) {
   EXPECT_EQ(more.exit_code, 3);
   EXPECT_NE(more.err.find("expected no others"), std::string::npos) << more.err;
   Json result = Json::parse(read_text(result_));
-  result["outputs"][1]["sha256"] = nullptr;
+  result["outputs"][1].erase("sha256");
   folder.write("mended.json", result.dump());
   refuses("has no SHA-256 of frame 2");
   result.erase("outputs");
@@ -95,6 +95,24 @@ TEST_F(RepairReport, OfARepairThatCannotBe) {
   EXPECT_NE(json["verdict"]["caveats"].dump().find("after 1 of 4 steps"), std::string::npos) << json["verdict"];
   EXPECT_EQ(json["scene"]["frames"], 2);
   EXPECT_TRUE(json["focus"].is_null());
+}
+
+TEST_F(RepairReport, OfARepairThatWentOn) {
+  const std::string table = read_text(folder.path("out/times.csv"));
+  folder.write("out/times.csv", table.substr(0, table.find("\n002.ply") + 1));
+  EXPECT_EQ(run_noli(repair(frames_, {"--json", result_, "--resume", "--force"})).exit_code, 0);
+  const Json result = Json::parse(read_text(result_));
+  ASSERT_GT(result["steps_before"], 0);
+  EXPECT_NE(page()["verdict"]["caveats"].dump().find("Earlier calls repaired"), std::string::npos);
+}
+
+TEST_F(RepairReport, SaysWhatIsNotCompared) {
+  const std::string groups =
+      folder.write("groups.json", R"({"groups": {"a": [[0, 2]], "b": [[3, 5]]}, "ignore": [["a", "b"]]})");
+  EXPECT_EQ(run_noli(repair(frames_, {"--json", result_, "--force", "--ignore", groups})).exit_code, 0);
+  const Json json = page();
+  EXPECT_EQ(json["verdict"]["caveats"].size(), 1u);
+  EXPECT_NE(json["verdict"]["caveats"][0].get<std::string>().find("Of the new frames: "), std::string::npos);
 }
 
 #ifdef NOLI_WITH_PNG
@@ -118,7 +136,7 @@ TEST_F(RepairReport, PicturesShowTheMotionBeforeAndAfter) {
   refused({"--at", "4.5"}, "is about the times from 0 to 4 steps");
   refused({"--at", "-1"}, "is about the times from 0 to 4 steps");
   refused({}, "expected --at TIME");
-  refused({"--at", "1", "--zoom", "hat"}, "no such body");
+  refused({"--at", "1", "--zoom", "hat"}, "names no such body");
   refused({"--at", "1", "--from", "0,0,0"}, "--from");
 }
 #endif

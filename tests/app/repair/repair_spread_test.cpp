@@ -16,13 +16,18 @@ class RepairSpread : public Repair {
  protected:
   static constexpr int n = 16, frames = 7;
 
-  void SetUp() override {
-    for (int k = 0; k < frames; ++k)
+  void SetUp() override { write_frames(frames); }
+
+  void write_frames(int count) {
+    written_.clear();
+    for (int k = 0; k < count; ++k) {
       written_.push_back(folder.write(fmt::format("sheet_{}.ply", k), sheet(0.25 - 0.5 * k)));
+    }
   }
 
-  static std::string sheet(double z) {
+  std::string sheet(double z) const {
     std::vector<Position> points = {{5.2, 5.1, 0}, {11.1, 5.3, 0}, {8.2, 11.2, 0}};
+    if (corner_) points = {{0.2, 0.1, 0}, {3.1, 0.3, 0}, {0.4, 3.2, 0}};
     std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2}};
     for (int i = 0; i <= n; ++i) {
       for (int j = 0; j <= n; ++j) points.push_back({1.0 * i, 1.0 * j, z});
@@ -58,6 +63,7 @@ class RepairSpread : public Repair {
     return longest;
   }
 
+  bool corner_ = false;
   Words written_;
 };
 
@@ -75,18 +81,20 @@ TEST_F(RepairSpread, SurroundingsComeAlong) {
 }
 
 TEST_F(RepairSpread, BeyondThemNothingMoves) {
-  written_.resize(4);
-  const std::vector<Position> x = last(repaired({"--spread", "1"})), given = positions(written_.back());
-  std::size_t moved = 0;
+  // The triangle is in a corner, below the vertices from 0 to 4; the step after the first spreads over 9 edges at most.
+  corner_ = true;
+  write_frames(3);
+  const std::vector<Position> x = last(repaired({"--spread", "3"})), given = positions(written_.back());
+  std::size_t moved = 0, near = 0;
   for (std::size_t v = 3; v < x.size(); ++v) {
-    const double from_middle = std::max(std::abs(given[v][0] - 8), std::abs(given[v][1] - 8));
+    const double from_corner = std::max(given[v][0], given[v][1]);
     moved += x[v] != given[v] ? 1 : 0;
-    // Contact reaches the vertices from 5 to 12, and each of the two steps after the first one edge further.
-    if (from_middle == 8) {
+    near += from_corner < 8 ? 1 : 0;
+    if (from_corner > 13) {
       EXPECT_EQ(x[v], given[v]) << v;
     }
   }
-  EXPECT_GT(moved, 50u);
+  EXPECT_GT(moved, near / 2) << "what is near comes along";
 }
 
 TEST_F(RepairSpread, IsAnotherRepairWhenResumed) {
@@ -142,7 +150,7 @@ TEST_F(RepairDrape, SlowMovesNoMoreThanTwiceTheDepth) {
   for (const Json& step : json["changed"]) {
     // Where the cloth is on its way out, what was moved before goes back slowly: the depth so far is what counts.
     deepest = std::max(deepest, depth(step["step"].get<int>()));
-    EXPECT_LE(step["rms"], 2 * std::max(deepest, 0.02)) << step;
+    EXPECT_LE(step["largest"], 2 * std::max(deepest, 0.05)) << step;
   }
   EXPECT_GT(deepest, 0.2);
 }

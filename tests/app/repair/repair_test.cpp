@@ -186,7 +186,10 @@ TEST_F(Repair, WhatWasKilledAnywhereResumesToTheSameBytes) {
   for (std::size_t bytes = 0; bytes <= table.size(); bytes += 7) {
     // As if it had been killed when so much of the table was written, perhaps within a frame.
     folder.write("out/times.csv", table.substr(0, bytes));
-    folder.write("out/003.ply", bytes < 120 ? "torn" : whole.at("003.ply"));
+    // A frame without its row may be torn; one with its row is whole.
+    const std::size_t row = table.find("\n003.ply") + 1;
+    const bool has_row = bytes > table.find('\n', row);
+    folder.write("out/003.ply", has_row ? whole.at("003.ply") : "torn");
     fs::remove(out(whole.size() - 3));
     const Process process = run_noli(repair(frames, {"--resume"}));
     ASSERT_EQ(process.exit_code, 0) << bytes << process.out << process.err;
@@ -198,6 +201,34 @@ TEST_F(Repair, WhatWasKilledAnywhereResumesToTheSameBytes) {
   // Another content of the same size is another repair too.
   folder.write("in_1.ply", replaced_in(read_text(frames[1]), "0.5", "0.7"));
   EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 3);
+}
+
+TEST_F(Repair, FramesThatWereChangedAreNotResumed) {
+  const Words frames = falling({1, 0.5, -0.5, -1});
+  ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
+  const std::string changed = folder.write("out/001.ply", two_triangles(0.75));
+  const Process process = run_noli(repair(frames, {"--resume"}));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("001.ply: has changed since it was written"), std::string::npos) << process.err;
+  EXPECT_EQ(read_text(changed), two_triangles(0.75));
+}
+
+TEST_F(Repair, AFolderThatIsReadGetsNoFrames) {
+  const Words frames = falling({1, -0.5});
+  const Process process = run_noli({"repair", folder.path(""), "-o", folder.path("new_%d.ply")});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("is read; choose another folder"), std::string::npos) << process.err;
+  EXPECT_FALSE(fs::exists(folder.path("new_0.ply")));
+}
+
+TEST_F(Repair, TheTableOfStepsIsWholeWithVerbose) {
+  std::vector<double> heights = {1};
+  for (int k = 0; k < 15; ++k) heights.push_back(-0.5 - 0.125 * k);
+  const Words frames = falling(heights);
+  EXPECT_NE(run_noli(repair(frames)).out.find("  ... and 3 more (-v)"), std::string::npos);
+  const Process all = run_noli(repair(frames, {"--force", "-v"}));
+  for (int step = 1; step <= 15; ++step)
+    EXPECT_NE(all.out.find(fmt::format("\n{:>6}  ", step)), std::string::npos) << step;
 }
 
 TEST_F(Repair, ResumeTouchesNoFilesThatAreNoRepair) {
@@ -302,7 +333,7 @@ TEST_F(Repair, FramesAreInsertedWhereStraightLinesWouldTouch) {
   EXPECT_GT(json["inserted"], 0);
   EXPECT_EQ(json["frames"], 4 + json["inserted"].get<int>());
   const std::string table = read_text(json["times"].get<std::string>());
-  EXPECT_NE(table.find(",,inserted\n"), std::string::npos) << table;
+  EXPECT_NE(table.find(",,inserted,"), std::string::npos) << table;
   EXPECT_EQ(verify_out().exit_code, 0);
 }
 
@@ -339,8 +370,13 @@ TEST_F(Repair, TheTableSaysWhichFrameIsWhen) {
   const Words frames = falling({1, -0.5, 1});
   const Json json = json_of(repair(frames), 0);
   const std::string table = read_text(json["times"].get<std::string>());
-  EXPECT_TRUE(table.starts_with("file,time,given,what\n000.ply,0," + frames[0] + ",copied\n")) << table;
-  EXPECT_NE(table.find(",2," + frames[2] + ",copied\n"), std::string::npos) << table;
+  const auto row = [](const std::string& begin, const Json& output) {
+    return begin + output["sha256"].get<std::string>() + "\n";
+  };
+  EXPECT_TRUE(table.starts_with("file,time,given,what,sha256\n" +
+                                row("000.ply,0," + frames[0] + ",copied,", json["outputs"][0])))
+      << table;
+  EXPECT_NE(table.find(row(",2," + frames[2] + ",copied,", json["outputs"].back())), std::string::npos) << table;
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), json["frames"].get<int>() + 1);
 }
 
