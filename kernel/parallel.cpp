@@ -82,8 +82,8 @@ void run_std(std::size_t count, int threads, const Task& task) {
 }
 
 #ifdef NOLI_PARALLEL_TBB
-/// Makes this program load TBB's allocator when it starts. TBB would do so in its first loop, and glibc crashes if memory
-/// ends while it loads a library.
+/// Makes this program load TBB's allocator when it starts. TBB would do so in its first loop, and glibc crashes if
+/// memory ends while it loads a library.
 [[gnu::used]] void (*const loads_allocator)(void*) = &scalable_free;
 
 /// Arenas that no loop uses at the moment. TBB frees an arena only after all its threads have left it, so on a busy

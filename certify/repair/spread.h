@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a step aims if what contact moves takes its surroundings along (--spread): by how much each vertex was off where
-// it was given, averaged over its surroundings and a little less, is added to where it is given next.
+// Where a step aims if what contact moves takes its surroundings along (--spread): by how much each vertex was off
+// where it was given, averaged over its surroundings and a little less, is added to where it is given next.
 //
 // Without this, every step presses what lies on a body into it as deep as it was given, and lets its surroundings go
 // where they were given: contact holds, but over many steps a cloth is torn to spikes.
