@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -13,17 +12,16 @@
 #include <noli/sequence.h>
 #include "certificates/cells.h"
 #include "certify/groups.h"
-#include "certify/json.h"
 #include "certify/not_compared.h"
 #include "certify/process/hdf5_frames.h"
-#include "certify/process/scratch_folder.h"
-#include "certify/proofs/proof_route.h"
 #include "certify/repair/changes.h"
 #include "certify/repair/excluded_pairs.h"
+#include "certify/repair/moving_vertices.h"
 #include "certify/repair/repaired_frames.h"
 #include "certify/repair/spread.h"
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
+#include "certify/repair/verify_repaired.h"
 #include "certify/simulate/retries.h"
 #include "certify/stopwatch.h"
 #include "trajectory/cells.h"
@@ -31,8 +29,6 @@
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/stop.h"
-#include "trajectory/text.h"
-#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {
@@ -48,89 +44,6 @@ RepairEnd end_of(const Stopped& stopped) {
 
 /// Where a step is cut so that straight lines between its frames touch nothing: at multiples of 2^-finest.
 constexpr int finest = 20;
-
-/// By vertex, 1 if it moves as given. Throws UsageError.
-std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size_t count,
-                                         const std::vector<FrameBody>& bodies) {
-  std::vector<std::uint8_t> fixed(count, 0);
-  if (request.fixed_first > count) {
-    throw UsageError(fmt::format("--fixed-first {}: the frames have {} vertices", request.fixed_first, count));
-  }
-  std::fill_n(fixed.begin(), request.fixed_first, std::uint8_t{1});
-  for (const std::string& name : request.fixed_bodies) {
-    if (std::ranges::find(bodies, name, &FrameBody::name) == bodies.end()) {
-      throw UsageError("--fixed " + name + ": there is no such body; expected the name of one (--body NAME=FRAMES)");
-    }
-  }
-  for (const FrameBody& body : bodies) {
-    const bool named = std::ranges::find(request.fixed_bodies, body.name) != request.fixed_bodies.end();
-    if (!body.still && !named) continue;
-    const auto begin = fixed.begin() + static_cast<std::ptrdiff_t>(body.first_vertex);
-    std::fill_n(begin, body.vertices, std::uint8_t{1});
-  }
-  return fixed;
-}
-
-/// Sums and ratios of masses stay far from the ends of doubles.
-constexpr double least_mass = 1e-100, most_ratio = 1e4;
-
-/// By vertex, of any unit. Throws InputError.
-std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x) {
-  if (request.masses == "size") return masses_by_size(mesh, x);
-  if (request.masses == "uniform") return std::vector<double>(mesh.vertex_count, 1);
-  const std::string text = read_whole_file(request.masses);
-  std::vector<double> masses;
-  Lines lines(text);
-  for (std::string_view line; lines.next(line);) {
-    Words words(line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      double mass = 0;
-      const std::string problem = parse_finite(word, mass);
-      if (!problem.empty() || mass < least_mass || mass > 1 / least_mass) {
-        throw InputError(
-            request.masses, line_place(lines.number()),
-            fmt::format("expected a mass from {} to {}, found {}", least_mass, 1 / least_mass, in_quotes(word)));
-      }
-      masses.push_back(mass);
-    }
-  }
-  if (masses.size() != mesh.vertex_count) {
-    throw InputError(request.masses, "",
-                     fmt::format("has {} numbers; expected {}, one for each vertex", masses.size(), mesh.vertex_count));
-  }
-  const auto [least, greatest] = std::ranges::minmax_element(masses);
-  if (*greatest > most_ratio * *least) {
-    throw InputError(
-        request.masses, "",
-        fmt::format("masses from {} to {}; expected none above {} times another one, which would take very "
-                    "short steps: let what is heavy be fixed instead",
-                    *least, *greatest, most_ratio));
-  }
-  const double sum = std::accumulate(masses.begin(), masses.end(), 0.0);
-  for (double& mass : masses) mass *= static_cast<double>(masses.size()) / sum;
-  return masses;
-}
-
-/// What moves as given: of each cell the vertices that do, as a cell. An edge of two cells is there twice, as a feature
-/// of one may meet a feature of the other. `whole`: of cells that move as a whole alone.
-Mesh fixed_parts(const Mesh& mesh, std::span<const std::uint8_t> fixed, bool whole) {
-  Mesh parts;
-  parts.vertex_count = mesh.vertex_count;
-  const auto take = [&](const auto& cell) {
-    std::vector<VertexId> part;
-    std::ranges::copy_if(cell, std::back_inserter(part), [&](VertexId v) { return fixed[v] != 0; });
-    if (whole && part.size() != cell.size()) return;
-    if (part.size() == 3) parts.faces.push_back({part[0], part[1], part[2]});
-    if (part.size() == 2) parts.edges.push_back({part[0], part[1]});
-    if (part.size() == 1) parts.points.push_back(part[0]);
-  };
-  for (const auto& face : mesh.faces) take(face);
-  for (const auto& edge : mesh.edges) take(edge);
-  for (const VertexId point : mesh.points) take(std::array{point});
-  std::ranges::sort(parts.points);
-  parts.points.erase(std::unique(parts.points.begin(), parts.points.end()), parts.points.end());
-  return parts;
-}
 
 template <int Dim>
 class Repair {
@@ -214,8 +127,6 @@ class Repair {
     }
     outcome_.by_body = changes_.by_body();
   }
-
-  std::vector<std::filesystem::path> written() const { return frames_.files(); }
 
  private:
   bool stopped() const {
@@ -448,62 +359,6 @@ class Repair {
   std::optional<SequenceVerifier> fixed_verifier_;  ///< of what moves as given
 };
 
-/// The file of --ignore for frames whose bodies are one mesh without names.
-std::filesystem::path groups_by_number(const std::filesystem::path& ignore, const std::vector<FrameBody>& bodies,
-                                       const std::filesystem::path& folder) {
-  const Groups named =
-      read_groups(ignore, bodies.back().first_vertex + bodies.back().vertices, names_of_frames(bodies));
-  Json json = {{"groups", Json::object()}, {"ignore", Json::array()}};
-  for (const FrameBody& body : bodies) {
-    json["groups"][body.name] = Json::array({{body.first_vertex, body.first_vertex + body.vertices - 1}});
-  }
-  for (const auto& [a, b] : named.exclusions.pairs) json["ignore"].push_back({named.names[a], named.names[b]});
-  write_file(folder / "groups.json", json.dump());
-  return folder / "groups.json";
-}
-
-/// What was verified last has to be what was written.
-void require_written(const RepairOutcome& outcome) {
-  const std::vector<FrameFacts>& read = outcome.verified->inputs;
-  for (std::size_t k = 0; k < std::min(read.size(), outcome.written.size()); ++k) {
-    const FrameFacts& written = outcome.written[k].facts;
-    if (!read[k].looked_at || read[k].sha256 == written.sha256) continue;
-    throw std::runtime_error(written.file + " has changed since it was written");
-  }
-}
-
-/// What `noli verify` says of the new frames.
-void verify_all(const RepairRequest& request, std::vector<std::filesystem::path> frames, RepairOutcome& outcome) {
-  VerifyRequest again;
-  again.frames = std::move(frames);
-  again.order = FrameOrder::given;
-  again.put_in_order();
-  again.dimension = request.dimension;
-  again.threads = request.threads;
-  again.points = request.points;
-  again.only_new = request.only_new;
-  again.proof = request.proof;
-  again.check = request.check;
-  again.deadline = request.deadline;
-  again.stop = request.stop;
-  again.progress = request.progress;
-  std::optional<ScratchFolder> folder;
-  again.ignore = request.ignore;
-  if (request.ignore && !outcome.bodies.empty()) {
-    again.ignore = groups_by_number(*request.ignore, outcome.bodies, folder.emplace().path());
-  }
-  ProofRoute route(again);
-  outcome.verified = run_verify(again);
-  route.check(*outcome.verified);
-  require_written(outcome);
-  for (const std::string& note : outcome.verified->notes) outcome.notes.push_back("of the new frames: " + note);
-  if (outcome.verified->not_checked) outcome.notes.push_back("not checked: " + *outcome.verified->not_checked);
-  if (!outcome.verified->touches()) return;
-  const std::string step = outcome.verified->first ? fmt::format(" in step {}", outcome.verified->first->step) : "";
-  throw std::runtime_error(fmt::format(
-      "the new frames touch{}, although each step was decided when it was written: was a file changed?", step));
-}
-
 /// Looks at all frames, and reads those of the first step. False if it was stopped.
 bool look_at_all(const RepairRequest& request, FrameSource& source, FrameSequence& sequence, RepairOutcome& outcome) {
   try {
@@ -537,7 +392,7 @@ void repair(const RepairRequest& request, FrameSource& source, FrameSequence& se
     outcome.end = end_of(stopped);
   }
   work.finish();
-  if (outcome.end == RepairEnd::done) verify_all(request, work.written(), outcome);
+  if (outcome.end == RepairEnd::done) verify_repaired(request, outcome);
 }
 
 }  // namespace

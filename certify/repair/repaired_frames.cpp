@@ -213,10 +213,4 @@ void RepairedFrames::finish(RepairOutcome& outcome) {
   outcome.written = written_;
 }
 
-std::vector<std::filesystem::path> RepairedFrames::files() const {
-  std::vector<std::filesystem::path> all;
-  for (std::uint64_t i = 0; i < files_.count(); ++i) all.push_back(files_.file(i));
-  return all;
-}
-
 }  // namespace noli

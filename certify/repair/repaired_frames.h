@@ -44,8 +44,6 @@ class RepairedFrames {
   /// What is committed stays. Notes in the outcome what that is. Throws std::system_error.
   void finish(RepairOutcome& outcome);
 
-  std::vector<std::filesystem::path> files() const;
-
  private:
   bool has_own_file(std::size_t k) const;
   bool is_read(const std::filesystem::path& file) const;
