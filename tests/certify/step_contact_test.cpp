@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "certify/repair/excluded_pairs.h"
 #include "certify/repair/near_gaps.h"
 
 namespace noli {
@@ -38,7 +39,8 @@ TEST(NearGaps, AreThoseOfTheNearestPairWithinReach) {
   const std::vector<Vector> x = vectors(at_gap(0.25));
   const std::vector<std::uint8_t> none(9, 0);
   const std::vector<double> reach(9, 1.0);
-  NearGaps<3> gaps(mesh, x, none, nullptr);
+  const std::vector<certificates::PairKey> nothing;
+  NearGaps<3> gaps(mesh, x, none, nullptr, nothing);
   const std::vector<double> found = gaps(x, reach);
   for (std::size_t v = 0; v < 6; ++v) EXPECT_DOUBLE_EQ(found[v], 0.25) << v;
   for (std::size_t v = 6; v < 9; ++v) EXPECT_EQ(found[v], 1) << v;
@@ -51,12 +53,22 @@ TEST(NearGaps, WhatNothingCanMoveOrIsExcludedDoesNotCount) {
   const std::vector<Vector> x = vectors(at_gap(0.25));
   const std::vector<double> reach(9, 1.0);
   const std::vector<std::uint8_t> fixed = {1, 1, 1, 1, 1, 1, 0, 0, 0};
-  EXPECT_EQ((NearGaps<3>(mesh, x, fixed, nullptr)(x, reach)), reach);
+  const std::vector<certificates::PairKey> nothing;
+  EXPECT_EQ((NearGaps<3>(mesh, x, fixed, nullptr, nothing)(x, reach)), reach);
   const Exclusions apart{{1, 1, 1, 2, 2, 2, 0, 0, 0}, {{1, 2}}};
   const std::vector<std::uint8_t> none(9, 0);
-  EXPECT_EQ((NearGaps<3>(mesh, x, none, &apart)(x, reach)), reach);
+  EXPECT_EQ((NearGaps<3>(mesh, x, none, &apart, nothing)(x, reach)), reach);
   const Exclusions other{{1, 1, 1, 2, 2, 2, 0, 0, 0}, {{2, 2}}};
-  EXPECT_NE((NearGaps<3>(mesh, x, none, &other)(x, reach)), reach);
+  EXPECT_NE((NearGaps<3>(mesh, x, none, &other, nothing)(x, reach)), reach);
+  // --only-new: cells 0 and 1 intersect in the first frame, or 1 and 2 do.
+  const auto of_baseline = [&](std::uint32_t a, std::uint32_t b) {
+    const certificates::Features features(mesh, 3);
+    const Baseline baseline(mesh, {{a, b}});
+    return ExcludedPairs(features, baseline)([] { return false; });
+  };
+  const auto first = of_baseline(0, 1), second = of_baseline(1, 2);
+  EXPECT_EQ((NearGaps<3>(mesh, x, none, nullptr, first)(x, reach)), reach);
+  EXPECT_NE((NearGaps<3>(mesh, x, none, nullptr, second)(x, reach)), reach);
 }
 
 class StepContacts : public testing::Test {
