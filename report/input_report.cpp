@@ -9,7 +9,9 @@ namespace noli::report {
 namespace {
 
 Json input_json(const FrameFacts& facts) {
-  Json json;  // field by field: lists of fields are copied, and there may be 10,000 frames
+  // Field by field: lists of fields are copied, and there may be 10,000 frames. An object from the start: one that
+  // nlohmann makes of null crashes when it is destroyed, if there was no memory to make it.
+  Json json = Json::object();
   json["file"] = facts.file;
   json["bytes"] = nullptr;
   json["sha256"] = nullptr;
