@@ -140,7 +140,7 @@ std::vector<std::string> unexpected_libraries(std::string_view readelf_output) {
   static const std::regex needed(R"(\(NEEDED\)[^\[]*\[([^\]]*)\])");
   static const std::regex known(
       R"((lib(gmp|gmpxx|mpfr|png16|pugixml|minizip|tbb|tbbmalloc|fmt|stdc\+\+|gcc_s|c|m|z|pthread|dl|rt))"
-      R"(|lib(asan|ubsan|tsan)"
+      R"(|lib(asan|ubsan|tsan))"
       R"(|ld-linux[-a-z0-9_]*)\.so.*)");
   const std::string text(readelf_output);
   std::vector<std::string> unexpected;
