@@ -25,9 +25,9 @@ namespace {
 
 constexpr const char* repair_footer =
     "Writes another motion near the given one, in which nothing touches. A step that touches nothing stays as it is; "
-    "in "
-    "any other, the vertices are masses that contact alone stops. Where straight lines between the frames would still "
-    "touch, frames are inserted: times.csv says which is when. Everything that is written has been decided exactly, "
+    "in any other, the vertices are masses that contact alone stops. Where straight lines between the frames would "
+    "still touch, frames are inserted: times.csv says which is when. Everything that is written has been decided "
+    "exactly, "
     "and the last line is what noli verify says of it:\n"
     "  proved      the checker accepted the proof: nothing touches            exit 0\n"
     "  no_contact  decided exactly, not checked (--no-check)                  exit 0\n"

@@ -79,10 +79,7 @@ RepairedMotions repaired_motions(const Json& result, const fs::path& path) {
                           std::make_unique<TimedFrames>(std::move(repaired), std::move(times))};
   require_same_mesh(motions.given->mesh(), first, motions.repaired->mesh(), first_repaired);
   motions.mesh = motions.given->mesh();
-  if (result.at("points").get<bool>()) {
-    const std::vector<VertexId> loose = unreferenced_vertices(motions.mesh);
-    motions.mesh.points.insert(motions.mesh.points.end(), loose.begin(), loose.end());
-  }
+  if (result.at("points").get<bool>()) add_particles(motions.mesh);
   return motions;
 }
 

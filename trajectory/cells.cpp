@@ -56,6 +56,14 @@ void drop_redundant_cells(Mesh& mesh) {
   if (!mesh.points.empty()) drop_redundant_points(mesh);
 }
 
+void append_mesh(Mesh& mesh, const Mesh& other) {
+  const auto shift = static_cast<VertexId>(mesh.vertex_count);
+  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + shift, b + shift, c + shift});
+  for (const auto& [a, b] : other.edges) mesh.edges.push_back({a + shift, b + shift});
+  for (const VertexId v : other.points) mesh.points.push_back(v + shift);
+  mesh.vertex_count += other.vertex_count;
+}
+
 std::vector<VertexId> unreferenced_vertices(const Mesh& mesh) {
   std::vector<bool> used = used_by_larger_cells(mesh);
   for (const VertexId v : mesh.points) used[v] = true;
@@ -64,6 +72,11 @@ std::vector<VertexId> unreferenced_vertices(const Mesh& mesh) {
     if (!used[v]) result.push_back(static_cast<VertexId>(v));
   }
   return result;
+}
+
+void add_particles(Mesh& mesh) {
+  const std::vector<VertexId> loose = unreferenced_vertices(mesh);
+  mesh.points.insert(mesh.points.end(), loose.begin(), loose.end());
 }
 
 std::vector<VertexId> drop_unreferenced_vertices(Mesh& mesh) {

@@ -25,8 +25,14 @@ void add_polygon(Mesh& mesh, std::span<const VertexId> corners);
 /// still a feature of a larger or equal one. Faces stay as they are, even equal ones.
 void drop_redundant_cells(Mesh& mesh);
 
+/// Puts another mesh behind this one: its vertices get the numbers that follow. Precondition: numbers suffice.
+void append_mesh(Mesh& mesh, const Mesh& other);
+
 /// The vertices that no cell refers to, in ascending order.
 std::vector<VertexId> unreferenced_vertices(const Mesh& mesh);
+
+/// Makes points of the vertices that no cell refers to (--points).
+void add_particles(Mesh& mesh);
 
 /// Removes unreferenced vertices. Returns the old numbers of the others, which keep their order.
 std::vector<VertexId> drop_unreferenced_vertices(Mesh& mesh);

@@ -57,10 +57,7 @@ std::optional<ParsedClaim> parse_claim(const ProofGroups& groups) {
 
 std::optional<Mesh> claimed_mesh(const ParsedClaim& claim, const Mesh& mesh) {
   Mesh result = mesh;
-  if (claim.points) {
-    const auto loose = unreferenced_vertices(mesh);
-    result.points.insert(result.points.end(), loose.begin(), loose.end());
-  }
+  if (claim.points) add_particles(result);
   std::vector<VertexId> same(mesh.vertex_count);
   std::iota(same.begin(), same.end(), 0);
   for (const auto& [v, stands] : claim.merged) {

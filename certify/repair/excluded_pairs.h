@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include <noli/mesh.h>
 #include "certificates/features.h"
-#include "integrator/simulation.h"
 #include "proofs/prover/cells/baseline.h"
 
 namespace noli {
@@ -24,7 +24,7 @@ class ExcludedPairs {
 
   /// Keys, ascending: some are of no pair that contact knows. O(pairs of the baseline). Not all once `stop` has
   /// returned true.
-  std::vector<certificates::PairKey> operator()(const integrator::Stop& stop) {
+  std::vector<certificates::PairKey> operator()(const std::function<bool()>& stop) {
     for (const auto& [a, b] : baseline_.pairs()) {
       if (stop()) break;
       // A pair that all cells leave out is left out by these two.

@@ -59,10 +59,7 @@ class Repair {
         stop_([this] { return stopped(); }),
         changes_(source.bodies(), fixed_),
         x_(sequence.x_t0().begin(), sequence.x_t0().end()) {
-    if (request.points) {
-      const auto loose = unreferenced_vertices(mesh_);
-      mesh_.points.insert(mesh_.points.end(), loose.begin(), loose.end());
-    }
+    if (request.points) add_particles(mesh_);
     if (mesh_.cell_count() == 0) {
       throw InputError(sequence.name_t0(), "",
                        "no faces, edges or points; expected something that can touch (see --points)");
@@ -121,9 +118,8 @@ class Repair {
     }
     if (outcome_.frames > outcome_.copied) {
       outcome_.notes.emplace_back(
-          "frames that are not copies have vertices, faces, edges and points alone: no texture coordinates, materials "
-          "or "
-          "groups, and polygons are cut into triangles");
+          "frames that are not copies have vertices, faces, edges and points alone: no texture coordinates, "
+          "materials or groups, and polygons are cut into triangles");
     }
     outcome_.by_body = changes_.by_body();
   }
@@ -182,8 +178,9 @@ class Repair {
     const Baseline baseline(mesh_, pairs);
     excluded_pairs_ = ExcludedPairs(gaps_->features(), baseline)(stop_);
     end_if(stopped());
-    outcome_.notes.push_back(fmt::format(
-        "{} pairs of cells intersect in the first frame: these are not compared (--only-new)", pairs.size()));
+    NotCompared left_out;
+    left_out.baseline = pairs.size();
+    outcome_.notes.push_back("not compared: " + baseline_text(left_out) + " (--only-new)");
   }
 
   void require_free_start() {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <noli/errors.h>
 #include <noli/version.h>
@@ -140,32 +141,32 @@ std::optional<RepairedFrames::Last> RepairedFrames::begin(const Mesh& mesh) {
 /// The rows up to the last frame at the end of a step that is there; a line without its end was torn.
 void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>& times) {
   std::ifstream in(table_, std::ios::binary);
-  std::string line, rows;
-  std::vector<double> seen;
-  std::vector<RepairedFrame> frames;
+  std::string line;
+  std::size_t complete = 0, complete_bytes = table.size();
   std::getline(in, line);
   while (std::getline(in, line) && !in.eof()) {
-    const std::filesystem::path file = files_.file(seen.size());
+    const std::filesystem::path file = files_.file(times.size());
     const std::string name = csv_cell(file.filename().string()) + ',';
     double time = 0;
     if (!line.starts_with(name) || !std::filesystem::is_regular_file(file)) break;
     const auto [rest, error] = std::from_chars(line.data() + name.size(), line.data() + line.size(), time);
-    const bool later = seen.empty() ? time == 0 : time > seen.back();
+    const bool later = times.empty() ? time == 0 : time > times.back();
     if (error != std::errc() || *rest != ',' || !later) break;
-    seen.push_back(time);
-    rows += line + '\n';
     const auto [what, hash] = ends_of(line);
     const FrameFacts facts = file_facts(file, [] { return stop_asked().has_value(); });
     if (hex(facts.sha256) != hash) {
       throw InputError(file.string(), "", "has changed since it was written; expected no --resume, but --force");
     }
-    frames.push_back({time, what, facts});
+    times.push_back(time);
+    table += line + '\n';
+    written_.push_back({time, what, facts});
     if (!is_whole(time)) continue;
-    table += rows;
-    rows.clear();
-    times = seen;
-    written_ = frames;
+    complete = times.size();
+    complete_bytes = table.size();
   }
+  times.resize(complete);
+  written_.resize(complete);
+  table.resize(complete_bytes);
 }
 
 std::size_t RepairedFrames::count(std::string_view what) const {
@@ -210,7 +211,7 @@ void RepairedFrames::finish(RepairOutcome& outcome) {
   outcome.inserted = count("inserted");
   outcome.removed = files_.removed();
   outcome.times = table_;
-  outcome.written = written_;
+  outcome.written = std::move(written_);
 }
 
 }  // namespace noli

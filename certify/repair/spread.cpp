@@ -10,7 +10,8 @@ namespace {
 
 /// Of a displacement, in each step: it goes back where there is room.
 constexpr double kept = 0.9;
-/// Of the largest displacement: less is none, or a mesh would end nowhere as it was given.
+/// A displacement below this share of the largest one counts as 0, so that vertices far away end exactly where they
+/// were given.
 constexpr double least_share = 0x1p-10;
 
 double square_of(const Position& d) { return d[0] * d[0] + d[1] * d[1] + d[2] * d[2]; }
@@ -54,7 +55,7 @@ void SpreadDisplacement::spread_once(const std::vector<Position>& d, std::vector
 }
 
 std::vector<Position> SpreadDisplacement::operator()(std::span<const Position> x, std::span<const Position> y,
-                                                     const integrator::Stop& stop) const {
+                                                     const std::function<bool()>& stop) const {
   std::vector<Position> d(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) {
     for (std::size_t k = 0; k < 3; ++k) d[v][k] = kept * (x[v][k] - y[v][k]);

@@ -14,11 +14,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include <noli/mesh.h>
-#include "integrator/simulation.h"
 
 namespace noli {
 
@@ -31,7 +31,7 @@ class SpreadDisplacement {
   /// would be less than a thousandth of the largest, and so beyond some 2 n edges. O(n^2 size of the mesh), without use
   /// once `stop` has returned true; the same bits everywhere.
   std::vector<Position> operator()(std::span<const Position> x, std::span<const Position> y,
-                                   const integrator::Stop& stop) const;
+                                   const std::function<bool()>& stop) const;
 
  private:
   void spread_once(const std::vector<Position>& d, std::vector<Position>& next) const;

@@ -66,10 +66,7 @@ class ContactOf {
   Frame frame() {
     const ResultInputs about(result_.value("inputs", Json::array()), path_);
     Frame frame = verified_steps(result_, path_).run ? frame_of_run(about) : frame_between(about);
-    if (result_.at("statement").at("points").get<bool>()) {
-      const auto particles = unreferenced_vertices(frame.mesh);
-      frame.mesh.points.insert(frame.mesh.points.end(), particles.begin(), particles.end());
-    }
+    if (result_.at("statement").at("points").get<bool>()) add_particles(frame.mesh);
     if (!intersecting_) return frame;
     if (merged()) refuse("counts cells of a mesh with merged vertices; verify without --merge-identical");
     for (std::size_t side = 0; side < 2; ++side) {
@@ -247,11 +244,8 @@ void paint(const ContactExportRequest& request, const Contact& contact, const Fr
   if (view.height == 0) view.height = view.width * 3 / 4;
   view.focus = Focus{point_of(contact, frame), radius_around(frame, marks)};
   view.marks = marks;
-  try {
-    replace_file(request.output, png(draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view)));
-  } catch (const std::invalid_argument&) {
-    throw UsageError("--from: expected a direction other than zero");
-  }
+  with_asked_view(
+      [&] { replace_file(request.output, png(draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view))); });
 }
 
 void check(const ContactExportRequest& request, bool picture) {

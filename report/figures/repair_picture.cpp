@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,13 +35,11 @@ PictureOutcome drawn(const RepairPictureRequest& request, const Json& result) {
   View view = view_from(request.view, result.at("dimension").get<int>());
   if (!request.view.zoom.empty()) zoom_to(request.view.zoom, result.at("bodies"), view);
   const Frame frame{motions.mesh, motion.at(request.time)};
-  try {
+  return with_asked_view([&] {
     const Picture picture = draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view);
     replace_file(request.output, png(picture));
-    return {request.time, picture.width, picture.height};
-  } catch (const std::invalid_argument&) {
-    throw UsageError("--from: expected a direction other than zero");
-  }
+    return PictureOutcome{request.time, picture.width, picture.height};
+  });
 }
 
 }  // namespace

@@ -99,15 +99,13 @@ ExportOutcome run_film(const FilmRequest& request) {
   require_pictures();
   const SeriesReader reader = open_run(request.frames.run);
   const std::vector<bool> fixed = fixed_of(reader.scene());
-  try {
+  return with_asked_view([&] {
     View view = view_of(request.view, request.frames.run, reader.header().dimension);
     view.extent = extent_of_run(request.frames, view);
     return export_frames(request.frames, [&](const Frame& frame, const std::filesystem::path& path) {
       replace_file(path, png(draw(frame, fixed, view)));
     });
-  } catch (const std::invalid_argument&) {
-    throw UsageError("--from: expected a direction other than zero");
-  }
+  });
 }
 
 PictureOutcome run_picture(const PictureRequest& request) {
@@ -115,14 +113,12 @@ PictureOutcome run_picture(const PictureRequest& request) {
   SeriesReader reader = open_run(request.run);
   const RunFrame frame = run_frame_at(reader, request.run, request.time);
   const std::vector<bool> fixed = fixed_of(reader.scene());
-  try {
+  return with_asked_view([&] {
     const View view = view_of(request.view, request.run, reader.header().dimension);
     const Picture picture = draw({reader.mesh(), frame.positions}, fixed, view);
     replace_file(request.output, png(picture));
-    return {frame.time, picture.width, picture.height};
-  } catch (const std::invalid_argument&) {
-    throw UsageError("--from: expected a direction other than zero");
-  }
+    return PictureOutcome{frame.time, picture.width, picture.height};
+  });
 }
 
 }  // namespace noli::report

@@ -8,8 +8,10 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
+#include <noli/errors.h>
 #include <noli/export.h>
 #include <noli/mesh.h>
 #include "report/figures/picture.h"
@@ -26,6 +28,16 @@ struct PictureView {
 
 /// Throws UsageError in a build without a library for pictures.
 void require_pictures();
+
+/// Calls a function that draws a view as a user asked for it. Throws UsageError if that is none.
+template <class Function>
+auto with_asked_view(const Function& function) {
+  try {
+    return function();
+  } catch (const std::invalid_argument&) {
+    throw UsageError("--from: expected a direction other than zero");
+  }
+}
 
 /// Direction and size; `zoom` is about runs.
 View view_from(const PictureView& asked, int dimension);

@@ -15,6 +15,7 @@
 #include "report/page/report_scene.h"
 #include "report/page/report_verdict.h"
 #include "report/repaired_motions.h"
+#include "trajectory/cells.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -22,17 +23,6 @@ namespace noli::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A mesh beside itself: the vertices and cells of the second follow those of the first.
-Mesh twice(const Mesh& mesh) {
-  Mesh both = mesh;
-  const auto n = static_cast<VertexId>(mesh.vertex_count);
-  both.vertex_count = 2 * mesh.vertex_count;
-  for (const auto& [a, b, c] : mesh.faces) both.faces.push_back({a + n, b + n, c + n});
-  for (const auto& [a, b] : mesh.edges) both.edges.push_back({a + n, b + n});
-  for (const VertexId a : mesh.points) both.points.push_back(a + n);
-  return both;
-}
 
 class Repaired {
  public:
@@ -138,7 +128,8 @@ class Repaired {
     note += " Positions are rounded for the picture.";
     std::vector<double> ends;
     for (std::uint64_t step = 1; step <= count("steps"); ++step) ends.push_back(static_cast<double>(step));
-    const Mesh both = twice(motions.mesh);
+    Mesh both = motions.mesh;
+    append_mesh(both, motions.mesh);
     put_scene({static_cast<int>(count("dimension")), both, parts(vertices), "steps", 0, ends, note}, packer.pack(),
               report_);
     put_focus(vertices);

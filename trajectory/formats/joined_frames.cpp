@@ -75,11 +75,7 @@ void JoinedFrames::append(std::size_t part, const Frame& frame, Frame& all) {
     throw InputError(body.name, "", "has another mesh than in the frame before");
   }
   body = {body.name, first, frame.mesh.vertex_count, first_face, frame.mesh.faces.size(), body.still};
-  const auto shift = static_cast<VertexId>(first);
-  for (const auto& [a, b, c] : frame.mesh.faces) all.mesh.faces.push_back({a + shift, b + shift, c + shift});
-  for (const auto& [a, b] : frame.mesh.edges) all.mesh.edges.push_back({a + shift, b + shift});
-  for (const VertexId v : frame.mesh.points) all.mesh.points.push_back(v + shift);
-  all.mesh.vertex_count += frame.mesh.vertex_count;
+  append_mesh(all.mesh, frame.mesh);
   all.positions.insert(all.positions.end(), frame.positions.begin(), frame.positions.end());
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Repairs the motions of `noli fuzz trajectories`, whose truth the oracle knows: the free ones come out byte for byte,
-// the others touch nothing afterwards, or the command says that it found no way, or that there is none, as what moves
-// as given meets.
+// Repairs the motions of `noli fuzz trajectories`, and asks the oracle what is true of them. A motion that touches
+// nothing comes out byte for byte. Any other touches nothing afterwards, or the command says that it found no way. It
+// says that there is no way only where fixed features really meet.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 //
 // Tests the pages that `noli report` writes about a repair: both motions, of the files that the result names.
 #include "tests/app/repair/repair_fixture.h"
+#include "tests/app/runs/simulate_fixture.h"
 
 namespace noli::app_tests {
 namespace {
@@ -9,10 +10,7 @@ namespace {
 class RepairReport : public Repair {
  protected:
   void SetUp() override {
-    const Process process = run_noli({"report", "nothing.json", "-o", folder.path("probe.html")});
-    if (process.err.find("was built without reports") != std::string::npos) {
-      GTEST_SKIP() << "skipped: this noli was built without reports (NOLI_WITH_REPORT)";
-    }
+    if (!reports_are_there()) GTEST_SKIP() << "skipped: reports (NOLI_WITH_REPORT)";
     frames_ = falling({1, 0.5, -0.5, -0.25, 1});
     EXPECT_EQ(run_noli(repair(frames_, {"--json", result_})).exit_code, 0);
   }
