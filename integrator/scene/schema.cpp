@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
 #include <noli/errors.h>
 #include "integrator/scene/json_text.h"
@@ -88,7 +90,7 @@ class Validator {
   Validator(const Json& root, const std::string& file) : root_(root), file_(file) {}
 
   void check(const Json& unresolved, Json& value, const Json::json_pointer& at) {
-    const Json schema = resolved(unresolved);
+    const Json& schema = resolved(unresolved);
     require_known_keywords(schema);
     if (schema.contains("oneOf")) return check(alternative(schema["oneOf"], value, at), value, at);
     check_type(schema, value, at);
@@ -112,15 +114,17 @@ class Validator {
     fail(at, fmt::format("expected {}{}, found {}", what, unit, brief(value)));
   }
 
-  /// The schema merged with the target of its $ref; members next to the $ref take precedence.
-  Json resolved(const Json& schema) const {
+  /// The schema merged with the target of its $ref; members next to the $ref take precedence. Each place of the schema
+  /// is merged once. Precondition: `schema` lives as long as the root, of which it is a part, or as what is merged.
+  const Json& resolved(const Json& schema) const {
     if (!schema.contains("$ref")) return schema;
-    const auto target = schema["$ref"].get<std::string>();
-    Json merged = resolved(root_.at(Json::json_pointer(target.substr(1))));
+    const auto known = merged_.find(&schema);
+    if (known != merged_.end()) return known->second;
+    Json merged = resolved(root_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))));
     for (const auto& [keyword, value] : schema.items()) {
       if (keyword != "$ref") merged[keyword] = value;
     }
-    return merged;
+    return merged_.emplace(&schema, std::move(merged)).first->second;
   }
 
   void check_type(const Json& schema, const Json& value, const Json::json_pointer& at) const {
@@ -192,7 +196,7 @@ class Validator {
   }
 
   void check_field(const std::string& name, const Json& property, Json& object, const Json::json_pointer& at) {
-    const Json schema = resolved(property);
+    const Json& schema = resolved(property);
     const bool taken = !object.contains(name) && schema.contains("default");
     if (taken) object[name] = schema["default"];
     if (taken && !object[name].is_object()) defaults.push_back({(at / name).to_string(), object[name]});
@@ -216,22 +220,25 @@ class Validator {
   std::string owner_of(const Json& schema, const std::string& owner, const std::string& name, int depth) const {
     constexpr int most_levels = 8;  // a schema may refer to itself
     if (depth > most_levels) return "";
-    const Json here = resolved(schema);
+    const Json& here = resolved(schema);
     if (here.contains("properties") && here["properties"].contains(name)) return owner;
     std::string found;
     const auto look = [&](const Json& inner, const std::string& inner_owner) {
       if (found.empty()) found = owner_of(inner, inner_owner, name, depth + 1);
     };
-    for (const Json& alternative : here.value("oneOf", Json::array())) look(alternative, owner);
-    const Json properties = here.value("properties", Json::object());  // items() only refers to it
-    for (const auto& [key, property] : properties.items()) look(property, Json(key).dump());
+    if (here.contains("oneOf")) {
+      for (const Json& alternative : here["oneOf"]) look(alternative, owner);
+    }
+    if (here.contains("properties")) {
+      for (const auto& [key, property] : here["properties"].items()) look(property, Json(key).dump());
+    }
     if (here.contains("items")) look(here["items"], owner);
     return found;
   }
 
   /// The meaning of a missing field, for messages: " (of each edge)", " (kg/m^3)".
   std::string meaning(const Json& property) const {
-    const Json schema = resolved(property);
+    const Json& schema = resolved(property);
     for (const char* keyword : {"description", "unit"}) {
       if (schema.contains(keyword)) return fmt::format(" ({})", schema[keyword].get<std::string>());
     }
@@ -258,6 +265,8 @@ class Validator {
 
   const Json& root_;
   const std::string& file_;
+  mutable std::unordered_map<const Json*, Json>
+      merged_;  ///< by the place in the schema; its elements stay where they are
 };
 
 }  // namespace
