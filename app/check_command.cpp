@@ -13,13 +13,11 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "certify/process/hdf5_frames.h"
+#include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/checker.h"
-#include "certify/proofs/claim.h"
-#include "certify/runs/run_folder.h"
-#include "certify/runs/run_log_facts.h"
+#include "report/check_report.h"
 #include "report/input_report.h"
-#include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/open_frames.h"
 #include "trajectory/stop.h"
@@ -69,12 +67,6 @@ struct CheckArguments {
   OutputOptions results;
 };
 
-std::string field_of(const std::string& word) { return word.substr(0, word.find('=')); }
-
-bool asks(const std::vector<std::string>& words, const std::string& field) {
-  return std::ranges::any_of(words, [&](const std::string& word) { return field_of(word) == field; });
-}
-
 /// The words of --require; those of the command line count before those of --claim.
 std::vector<std::string> asked_by(const CheckArguments& arguments) {
   std::vector<std::string> words = arguments.require;
@@ -83,87 +75,6 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
     if (!asks(arguments.require, field_of(word))) words.push_back(word);
   }
   return words;
-}
-
-/// All windows that the log of a run tells of are asked where some are missing. What cannot be read is the checker's to
-/// say. Throws InputError when the log is damaged, or has another hash of what is there.
-void ask_for_all_windows(const fs::path& run, std::vector<std::string>& words, std::vector<std::string>& notes) {
-  const LogFacts log = read_log(run);
-  if (const auto note = note_of_lost_log(log)) notes.push_back(*note);
-  std::optional<SeriesReader> reader;
-  std::uint64_t windows = 0;
-  try {
-    reader.emplace(open_run(run, log));
-    windows = reader->look().windows;
-  } catch (const InputError&) {
-    return;
-  }
-  if (windows >= log.known.count) return reader->look_for_expected();
-  if (!asks(words, "steps")) words.push_back("steps=" + std::to_string(log.known.count));
-}
-
-Json asked_json(const std::vector<std::string>& words) {
-  Json json = Json::object();
-  for (const std::string& word : words) {
-    const std::string field = field_of(word);
-    json[field] = field == word ? "1" : word.substr(field.size() + 1);  // a bare word means 1
-  }
-  return json;
-}
-
-/// What follows the first "; " of the checker's first line: what weakens the claim, or on what the witness rests.
-Json weaker_json(const std::string& words) {
-  Json list = Json::array();
-  const std::string line = first_line(words);
-  for (std::size_t at = line.find("; "); at != std::string::npos;) {
-    const std::size_t end = line.find("; ", at + 2);
-    list.push_back(line.substr(at + 2, end == std::string::npos ? end : end - at - 2));
-    at = end;
-  }
-  return list;
-}
-
-Json check_json(const CheckerVersion& checker, const fs::path& proof, const std::vector<std::string>& asked,
-                const CheckerVerdict& verdict, const char* word) {
-  const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
-  return {{"verdict", word},
-          {"checker", checker_json(checker)},
-          {"proof", proof.string()},
-          {"asked", asked_json(asked)},
-          {"claim", claim ? claim_json(*claim) : Json(nullptr)},
-          {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
-          {"words", verdict.words}};
-}
-
-std::string next_step(const CheckerVerdict& verdict, bool plain) {
-  const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
-  switch (verdict.code) {
-    case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
-    case 1: return "noli verify with the same frames or run shows where and when.";
-    default:
-      return names_remedy
-                 ? ""
-                 : "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
-  }
-}
-
-/// The checker's first line without its verdict is the place; the line for programs is among the details.
-report::Answer check_answer(const Json& json, const CheckerVersion& checker, const CheckerVerdict& verdict,
-                            const std::vector<std::string>& notes) {
-  const std::string line = first_line(verdict.words);
-  const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
-  report::Answer answer(json, {"checker=checker/name", "version=checker/version"});
-  answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
-  answer.text += report::notes_text(notes);
-  answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
-  std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
-  constexpr std::string_view touches = "touches";
-  const auto claim = claim_of_words(verdict.words);
-  const std::size_t at = what.find(touches);
-  if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
-  answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
-  answer.next = next_step(verdict, checker.name == "noli_check");
-  return answer;
 }
 
 CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
@@ -226,11 +137,8 @@ ExitCode run(CheckArguments& arguments) {
   bars.reset();
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
-  const char* word = verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
-  const CheckerVersion version = version_of(which);
-  Json json = check_json(version, proof, asked, verdict, word);
-  json["notes"] = notes;
-  output.write("check", check_answer(json, version, verdict, notes), json);
+  const report::Checked checked{version_of(which), proof, asked, verdict, notes};
+  output.write("check", report::check_answer(checked), report::check_json(checked));
   return static_cast<ExitCode>(verdict.code);
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <noli/errors.h>
-#include <noli/version.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -103,18 +102,7 @@ struct ResultFile {
 class Report {
  public:
   explicit Report(const ReportArguments& arguments) : arguments_(arguments), inputs_(sorted(arguments.inputs)) {
-    report_.page = {
-        {"title", ""},
-        {"made", fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number())},
-        {"verdict", report::no_verdict()},
-        {"facts", Json::array()},
-        {"statement", Json::array()},
-        {"scene", nullptr},
-        {"contacts", nullptr},
-        {"focus", nullptr},
-        {"plots", Json::array()},
-        {"pictures", Json::array()},
-        {"results", Json::array()}};
+    report_.page = report::empty_page();
   }
 
   /// Whether it has a verdict about frames or a run without these.

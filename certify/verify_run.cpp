@@ -82,9 +82,9 @@ class SequenceVerification : private Verification {
       : Verification(request),
         source_(open_all_frames(request.frames, request.reading)),
         sequence_(*source_, motion_of(request)) {
-    require_readable(request.frames);
+    if (!request.reading.given) require_readable(request.frames);
     if (request.merge_identical && !source_->can_begin_again()) {
-      throw UsageError("--merge-identical: reads frames twice; expected files, found a pipe or standard input");
+      throw UsageError("--merge-identical: reads frames twice; expected files or arrays, found a pipe, a generator or standard input");
     }
     outcome_.steps_total = sequence_.step_count().value_or(0);
   }

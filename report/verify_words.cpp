@@ -230,7 +230,7 @@ class Words {
 
   /// A proof that `noli check` takes only if it is asked for what it claims.
   void check_again() {
-    if (!request_.proof || !outcome_.checked) return;
+    if (!request_.proof || !outcome_.checked || request_.reading.given) return;
     constexpr std::size_t most_named = 8, most_of_a_command = 1000;
     std::vector<std::string> words = {"noli", "check", request_.proof->string()};
     for (const auto& frame : request_.frames) {

@@ -4,8 +4,17 @@
 #include <sys/resource.h>
 
 #include <system_error>
+#include <utility>
 
 namespace noli {
+namespace {
+
+std::filesystem::path& folder_of_programs() {
+  static std::filesystem::path folder;
+  return folder;
+}
+
+}  // namespace
 
 std::uint64_t peak_memory_bytes() {
   struct rusage usage = {};
@@ -18,6 +27,11 @@ std::filesystem::path this_program_file() {
   return std::filesystem::read_symlink("/proc/self/exe", error);
 }
 
-std::filesystem::path beside_this_program(const std::string& name) { return this_program_file().parent_path() / name; }
+void keep_programs_in(std::filesystem::path folder) { folder_of_programs() = std::move(folder); }
+
+std::filesystem::path beside_this_program(const std::string& name) {
+  const std::filesystem::path& folder = folder_of_programs();
+  return (folder.empty() ? this_program_file().parent_path() : folder) / name;
+}
 
 }  // namespace noli

@@ -15,7 +15,11 @@ std::uint64_t peak_memory_bytes();
 /// The executable of this process.
 std::filesystem::path this_program_file();
 
-/// The path of a program of this name in the folder of this one. It need not exist.
+/// Where beside_this_program() looks, for a library in the process of another program, an interpreter for example. Call it
+/// before any work.
+void keep_programs_in(std::filesystem::path folder);
+
+/// The path of a program of this name in the folder of this one, or of keep_programs_in(). It need not exist.
 std::filesystem::path beside_this_program(const std::string& name);
 
 }  // namespace noli

@@ -68,11 +68,13 @@ ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
 }
 
 bool ProofRoute::frames_are_streamed() const {
-  return !request_.run && (!request_.reading.bodies.empty() || !checkers_read(request_.frames));
+  if (request_.run) return false;
+  return request_.reading.given || !request_.reading.bodies.empty() || !checkers_read(request_.frames);
 }
 
 bool ProofRoute::can_be_read_again() const {
   if (request_.lines_in_no_file) return false;
+  if (request_.reading.given) return request_.reading.given->again;
   std::error_code error;
   return std::ranges::all_of(trajectory_for_checker(request_.frames), [&](const fs::path& path) {
     return path != "-" && (!fs::exists(path, error) || fs::is_regular_file(path, error));
@@ -101,7 +103,7 @@ void ProofRoute::check(VerifyOutcome& outcome) {
   require_claim(outcome.claim, verdict->words, refuted);
   if (frames_are_streamed()) {
     const char* const advice =
-        request_.trajectory ? "" : "; noli verify --trajectory OUT writes them to a file that checkers read";
+        request_.trajectory || request_.reading.given ? "" : "; noli verify --trajectory OUT writes them to a file that checkers read";
     outcome.notes.push_back(fmt::format("the checker read the frames as noli passed them on{}", advice));
   }
   outcome.checker = version_of(Checker::plain);
@@ -143,7 +145,7 @@ std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
 std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {
   if (!can_check_ && request_.lines_in_no_file)
     return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
-  if (!can_check_) return "standard input and pipes cannot be read a second time";
+  if (!can_check_) return "standard input, pipes and generators cannot be read a second time";
   if (!can_be_asked(outcome.claim)) return "more pairs of cells are left out than a checker can be asked about";
   if (outcome.no_proof) return "no proof was found";
   if (outcome.verdict == Verdict::contact && outcome.near)

@@ -30,6 +30,10 @@ std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size
     throw UsageError(fmt::format("--fixed-first {}: the frames have {} vertices", request.fixed_first, count));
   }
   std::fill_n(fixed.begin(), request.fixed_first, std::uint8_t{1});
+  for (const VertexId v : request.fixed_listed) {
+    if (v >= count) throw UsageError(fmt::format("fixed: there is no vertex {}; the frames have {}", v, count));
+    fixed[v] = 1;
+  }
   for (const std::string& name : request.fixed_bodies) {
     if (std::ranges::find(bodies, name, &FrameBody::name) == bodies.end()) {
       throw UsageError("--fixed " + name + ": there is no such body; expected the name of one (--body NAME=FRAMES)");

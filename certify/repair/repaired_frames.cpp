@@ -102,6 +102,7 @@ std::string RepairedFrames::fingerprint() const {
                       request_.reading.polygons == PolygonRule::refuse);
   if (request_.masses != "size" && request_.masses != "uniform") text += read_whole_file(request_.masses);
   for (const std::string& key : request_.reading.keys) text += key + '\n';
+  for (const VertexId v : request_.fixed_listed) text += fmt::format("{} ", v);
   for (const std::string& body : request_.fixed_bodies) text += body + '\n';
   for (const BodyFrames& body : request_.reading.bodies) text += fmt::format("{} {}\n", body.name, body.still);
   if (request_.ignore) text += read_whole_file(*request_.ignore);

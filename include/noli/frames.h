@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames in files: their order, how their polygons are read, and facts about what was read.
+// Frames in files or given by a function: their order, how they are read, and facts about what was read.
 //
 //   const noli::OrderedFrames ordered = noli::order_frames({"cloth_1.ply", "cloth_2.ply", "cloth_10.ply"});
 //
@@ -24,10 +24,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <noli/mesh.h>
 
 namespace noli {
 
@@ -69,11 +72,25 @@ struct FrameBody {
   bool still = false;
 };
 
+/// Frames that no file has: arrays in memory, or what a solver makes. What names the frames of files then has one name,
+/// by which messages call these: frame k is NAME[k].
+struct GivenFrames {
+  Mesh mesh;                         ///< every index is below its vertex_count
+  std::optional<std::size_t> count;  ///< nothing: `frame` says where the end is
+  /// The positions of frame k = 0, 1, ..., one per vertex, which are copied; nothing behind the last frame. Called from
+  /// the threads of whoever reads, never twice at once. What it throws is passed on.
+  std::function<std::optional<std::vector<Position>>(std::size_t k)> frame;
+  bool again = false;               ///< `frame` may be asked for frames from an earlier one on, and says the same then
+  std::string numbers = "float64";  ///< as in FrameFacts: what the coordinates were before they were doubles
+  std::vector<FrameBody> bodies = {};
+};
+
 /// How frames are read.
 struct FrameReading {
   PolygonRule polygons = PolygonRule::fan;
   std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
-  std::vector<BodyFrames> bodies = {};  ///< joined into one mesh; empty for frames of one mesh
+  std::vector<BodyFrames> bodies = {};            ///< joined into one mesh; empty for frames of one mesh
+  std::shared_ptr<const GivenFrames> given = {};  ///< these instead of files
 
   /// For Noli itself: what reads HDF5.
   std::shared_ptr<const FrameConverter> hdf5 = {};
@@ -84,7 +101,7 @@ struct FrameFacts {
   std::string file;                       ///< its name, as given; a path would take several times the memory
   bool looked_at = false;                 ///< else only the name is known
   std::uint64_t bytes = 0;                ///< of the file
-  std::array<std::uint8_t, 32> sha256{};  ///< of its bytes
+  std::array<std::uint8_t, 32> sha256{};  ///< of its bytes; of given frames, of all x, y, z as little-endian doubles
   std::string numbers;  ///< of coordinates: "float64", "float32/float64", "text with 9 digits, 6 decimals"
   std::uint64_t vertices = 0;
   std::optional<std::uint64_t> cells;  ///< once a frame of the mesh has been parsed

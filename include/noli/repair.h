@@ -56,6 +56,7 @@ struct RepairRequest {
   std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
   bool only_new = false;                        ///< cells that intersect in the first frame may go on so
   std::uint64_t fixed_first = 0;                ///< the first N vertices move as given
+  std::vector<VertexId> fixed_listed;           ///< these too
   std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
   std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
   /// "size": by area and length; "uniform"; else the name of a text file with a positive number for each vertex.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page/report_verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+
+#include <noli/version.h>
 
 namespace noli::report {
 namespace {
@@ -33,8 +37,16 @@ std::string_view name(Tone tone) {
   return "";
 }
 
-Json no_verdict() {
-  return {{"word", "report"}, {"tone", name(Tone::neutral)}, {"lines", Json::array()}, {"caveats", Json::array()}};
+Json empty_page() {
+  const Json none = Json::array();
+  Json page = Json::object();
+  page["title"] = "";
+  page["made"] = fmt::format("Made by noli {}. Nothing on this page is fetched from elsewhere.", version_number());
+  page["verdict"] = {{"word", "report"}, {"tone", name(Tone::neutral)}, {"lines", none}, {"caveats", none}};
+  for (const char* const list : {"facts", "statement"}) page[list] = none;
+  for (const char* const part : {"scene", "contacts", "focus"}) page[part] = nullptr;
+  for (const char* const list : {"plots", "pictures", "results"}) page[list] = none;
+  return page;
 }
 
 void add_caveat(const std::string& line, ReportPage& report) {

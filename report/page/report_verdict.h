@@ -19,8 +19,8 @@ enum class Tone { neutral, good, open, bad };
 Tone tone_of(std::string_view word);
 std::string_view name(Tone tone);
 
-/// The verdict of a page before anything is known of it.
-Json no_verdict();
+/// ReportPage::page before anything is known of what it is about.
+Json empty_page();
 
 /// Puts the word at the head unless what is there is as bad, or worse: so a page is never greener than any of its
 /// inputs. "proved" says more than "no_contact", and takes its place.

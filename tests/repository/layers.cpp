@@ -30,6 +30,7 @@ const std::map<std::string, Row>& table() {
       {"include", {}},           {"kernel", {}},       {"trajectory", {}},     {"certificates", geometry},
       {"integrator", dynamics},  {"proofs", geometry}, {"proofs/checker", {}}, {"certify", both_wings},
       {"report", questions},     {"oracle", {}},       {"audit", answers},     {"app", with(answers, {"audit"})},
+      {"python", with(answers, {"audit"})},
       {"examples", {"include"}},  // installed headers
   };
   return rows;

@@ -9,6 +9,7 @@
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/arrays/array_frames.h"
 #include "trajectory/formats/arrays/converted_frames.h"
+#include "trajectory/formats/arrays/frames_in_memory.h"
 #include "trajectory/formats/arrays/stream_frames.h"
 #include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
@@ -22,6 +23,7 @@ bool holds_frames(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& names, const FrameReading& reading) {
+  if (reading.given) return std::make_unique<FramesInMemory>(names.at(0).string(), reading.given);
   if (!reading.bodies.empty()) return std::make_unique<JoinedFrames>(reading.bodies, reading);
   const bool of_arrays = !names.empty() && is_array_name(names[0]);
   if (!reading.keys.empty() && !of_arrays) {

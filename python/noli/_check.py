@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Does a proof hold?"""
+
+import json
+import os
+import tempfile
+
+from . import _core
+from ._errors import InputError, NotProved, UsageError
+from ._frames import file_names, given_frames
+from ._words import no_truth
+
+
+class Checked:
+    """What a checker said. It is no bool: ask ``verdict``.
+
+    Attributes
+    ----------
+    verdict : str
+        "accepted": what was asked is proved. "refuted": a witness shows that it is not so. "rejected": neither.
+    words : str
+        The checker's own words.
+    claim : dict or None
+        What was proved or refuted, field by field (proofs/FORMAT.md, section 6).
+    weaker : list of str
+        What makes that less than everything.
+    """
+
+    def __init__(self, check):
+        self._check = check
+        self._json = json.loads(check.json())
+
+    __bool__ = no_truth
+    verdict = property(lambda self: self._json["verdict"])
+    words = property(lambda self: self._json["words"])
+    claim = property(lambda self: self._json["claim"])
+    weaker = property(lambda self: self._json["weaker"])
+
+    def to_json(self):
+        """A dict, as ``noli check --json`` writes it."""
+        return self._json
+
+    def raise_unless_accepted(self):
+        """Returns this if the proof was accepted. Raises NotProved."""
+        if self.verdict != "accepted":
+            raise NotProved(self.words.splitlines()[0] if self.words else self.verdict, self)
+        return self
+
+    def text(self):
+        """What ``noli check`` prints."""
+        return self._check.text()
+
+    def __str__(self):
+        return self.text()
+
+    def __repr__(self):
+        return f"<noli.Checked: {self.text().splitlines()[-1]}>"
+
+
+def check(proof, frames=None, mesh=None, *, require=(), claim=None, verified=False):
+    """Has a separate program check a proof about these frames, or about a run.
+
+    Parameters
+    ----------
+    proof : path
+        Written by ``noli.verify(..., proof=...)``; or the folder of a run, without frames: its own proof.
+    frames, mesh
+        As for ``noli.verify``. A generator can be read once.
+    require : list of str
+        Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``). Default: frames in
+        motion, all steps, every cell, no merged vertices, nothing left out, no least distance.
+    claim : path or dict
+        All fields at once: ``Result.claim``, or the file of ``noli verify --claim-out``.
+    verified : bool
+        Asks noli_check_verified, whose soundness is proved in Coq.
+
+    Returns
+    -------
+    Checked
+
+    Raises
+    ------
+    InputError, UsageError, NoliError
+        No such proof, no such checker.
+    """
+    proof = os.fspath(proof)
+    if frames is None:
+        if not os.path.isdir(proof):
+            raise UsageError("expected the folder of a run, or a proof and what it is about")
+        proof, frames = os.path.join(proof, "proof.blocks"), proof
+    if not os.path.exists(proof):
+        raise InputError(f"{proof}: does not exist; expected a proof")
+    asked = [str(word) for word in require]
+    asked += [word for word in _fields(claim) if word.split("=")[0] not in {own.split("=")[0] for own in asked}]
+    names = file_names(frames)
+    checked = Checked(_core.Check(proof, given_frames(frames, mesh) if names is None else names, asked, bool(verified)))
+    fault = "rejected: the command line, "
+    if checked.words.startswith(fault):
+        raise UsageError(checked.words.splitlines()[0][len(fault) :])
+    return checked
+
+
+def _fields(claim):
+    if claim is None:
+        return []
+    if not isinstance(claim, dict):
+        return _core.read_claim_file(os.fspath(claim))
+    with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+        json.dump(claim, file)
+        file.flush()
+        return _core.read_claim_file(file.name)

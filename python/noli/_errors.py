@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The exceptions of Noli. A verdict is a result, never one of these, unless it is asked for."""
+
+
+class NoliError(Exception):
+    """Base of all exceptions of this package."""
+
+
+class InputError(NoliError, ValueError):
+    """What was given to look at is at fault: a file, an array. The text says which, where, and what was expected."""
+
+
+class UsageError(NoliError, ValueError):
+    """The call is at fault: arguments that do not go together, a place that cannot be written to."""
+
+
+class Stopped(NoliError):
+    """Work ended early, because of the time limit."""
+
+
+class NotProved(NoliError):
+    """What ``raise_unless_proved()`` raises. ``result`` is the result that is no proof."""
+
+    def __init__(self, text, result):
+        super().__init__(text)
+        self.result = result
+
+
+class Contact(NotProved):
+    """Something touches.
+
+    ``time`` is when first, in [0, 1] of the step, rounded down; None where cells intersect as the step begins.
+    ``pairs`` are the listed contacts, as ``Result.contacts``.
+    """
+
+    def __init__(self, text, result, time, pairs):
+        super().__init__(text, result)
+        self.time = time
+        self.pairs = pairs

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What moves: cells by the numbers of their vertices, the bodies they make up, and what is not compared."""
+
+import json
+
+import numpy as np
+
+from ._arrays import indices
+from ._errors import InputError, UsageError
+
+
+class CollisionMesh:
+    """Cells of a mesh, without coordinates.
+
+    Parameters
+    ----------
+    faces : (n, 3) whole numbers
+        Triangles, by the numbers of their vertices from 0.
+    edges : (n, 2) whole numbers, optional
+        Edges that belong to no face: cables, hair. Edges of faces need not be listed.
+    points : (n,) whole numbers, optional
+        Vertices that are particles.
+    vertex_count : int, optional
+        How many vertices there are. Default: as many as the positions have.
+    bodies : dict of name to (n,) whole numbers, optional
+        Vertices of each body. Contacts are then named by bodies, and ``ignore`` can leave pairs of them out.
+    ignore : list of pairs of names, optional
+        Bodies whose cells are not compared with each other; ``("a", "a")``: not with those of the same body.
+
+    Features of cells are compared if they share no vertex. Cells are numbered: faces, then edges, then points.
+
+    Raises
+    ------
+    InputError
+        An array of another shape or type, a vertex that does not exist, a cell with vertices of two bodies.
+    UsageError
+        ``ignore`` names no body.
+    """
+
+    def __init__(self, faces=None, *, edges=None, points=None, vertex_count=None, bodies=None, ignore=None):
+        self.faces = indices(faces, 3, "faces")
+        self.edges = indices(edges, 2, "edges")
+        self.points = indices(points, 1, "points")
+        self.vertex_count = vertex_count
+        self.bodies = {str(name): indices(of, 1, f"bodies[{name!r}]") for name, of in (bodies or {}).items()}
+        self.ignore = [tuple(pair) for pair in ignore or []]
+        for pair in self.ignore:
+            if len(pair) != 2 or any(name not in self.bodies for name in pair):
+                raise UsageError(f"ignore: {pair!r} is no pair of bodies; there are {sorted(self.bodies)}")
+        if vertex_count is not None:
+            self._require_vertices(vertex_count)
+
+    @property
+    def cell_count(self):
+        """Number of faces, edges and points."""
+        return len(self.faces) + len(self.edges) + len(self.points)
+
+    def __repr__(self):
+        parts = [f"{len(cells)} {name}" for name, cells in self._cells().items() if len(cells)]
+        return f"<noli.CollisionMesh: {', '.join(parts) or 'no cells'}>"
+
+    def _cells(self):
+        return {"faces": self.faces, "edges": self.edges, "points": self.points}
+
+    def _require_vertices(self, count):
+        """Raises InputError unless every number is below ``count``."""
+        named = [*self._cells().items(), *((f"bodies[{name!r}]", of) for name, of in self.bodies.items())]
+        for name, cells in named:
+            if cells.size and cells.max() >= count:
+                raise InputError(f"{name}: there is no vertex {cells.max()}; there are {count}")
+        if self.vertex_count not in (None, count):
+            raise InputError(f"there are positions of {count} vertices; the mesh has {self.vertex_count}")
+
+    def _consecutive_bodies(self, count):
+        """(name, first vertex, vertices, first face, faces) of each body, if all bodies are such runs of both."""
+        rows, order = [], sorted(self.bodies.items(), key=lambda item: item[1][0] if len(item[1]) else -1)
+        at = first_face = 0
+        of_face = self._body_of(count)[self.faces[:, 0]] if len(self.faces) else np.empty(0, int)
+        names = list(self.bodies)
+        for name, vertices in order:
+            faces = np.flatnonzero(of_face == names.index(name) + 1)
+            run = np.array_equal(vertices, np.arange(at, at + len(vertices)))
+            if not run or not np.array_equal(faces, np.arange(first_face, first_face + len(faces))):
+                return []
+            rows.append((name, at, len(vertices), first_face, len(faces)))
+            at, first_face = at + len(vertices), first_face + len(faces)
+        return rows if at == count else []
+
+    def _body_of(self, count):
+        """By vertex, the number of its body from 1; 0: of none."""
+        of = np.zeros(count, np.int64)
+        for number, (name, vertices) in enumerate(self.bodies.items(), 1):
+            if np.any(of[vertices]):
+                raise InputError(f"bodies[{name!r}]: vertex {vertices[of[vertices] > 0][0]} is of two bodies")
+            of[vertices] = number
+        return of
+
+    def _groups(self, count):
+        """The text of GROUPS.json (``noli verify --ignore``), or None."""
+        if not self.ignore:
+            return None
+        groups = {"ignore": [list(pair) for pair in self.ignore]}
+        if not self._consecutive_bodies(count):
+            self._body_of(count)
+            groups["groups"] = {name: _ranges(vertices) for name, vertices in self.bodies.items()}
+        return json.dumps(groups)
+
+    def body_of_vertex(self, vertex):
+        """The name of the body that has a vertex, or None."""
+        return next((name for name, vertices in self.bodies.items() if vertex in vertices), None)
+
+
+def _ranges(vertices):
+    """[[first, last], ...] of whole numbers."""
+    if not len(vertices):
+        return []
+    ordered = np.unique(vertices)
+    starts = np.flatnonzero(np.diff(ordered, prepend=ordered[0] - 2) != 1)
+    ends = np.append(starts[1:], len(ordered)) - 1
+    return [[int(ordered[a]), int(ordered[b])] for a, b in zip(starts, ends)]
+
+
+def as_mesh(mesh):
+    """A CollisionMesh as it is, else one of these faces."""
+    if mesh is None:
+        raise UsageError("positions in arrays need a mesh: CollisionMesh(faces), or the faces")
+    return mesh if isinstance(mesh, CollisionMesh) else CollisionMesh(mesh)

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the programs are that this package starts: the checkers of proofs, and noli_series, which reads HDF5."""
+
+import os
+import pathlib
+import shutil
+
+from . import _core
+
+
+def find():
+    """The folder programs/ in the package, else that of noli_check on the PATH."""
+    inside = pathlib.Path(__file__).parent / "programs"
+    if (inside / "noli_check").exists():
+        return inside
+    found = shutil.which("noli_check")
+    return pathlib.Path(found).parent if found else None
+
+
+folder = find()
+if folder is not None:
+    _core.keep_programs_in(os.fspath(folder))

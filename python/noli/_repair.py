@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A motion near a given one in which nothing touches."""
+
+import csv
+import json
+import os
+import tempfile
+
+import numpy as np
+
+from . import _core
+from ._arrays import indices, numbers
+from ._errors import InputError, NotProved, UsageError
+from ._frames import file_names, given_frames
+from ._mesh import CollisionMesh
+from ._words import no_truth, progress_of
+
+
+class Repaired:
+    """Frames in which nothing touches, also between them. It is no bool: ask ``verdict``.
+
+    Attributes
+    ----------
+    verdict : str
+        "proved" or "no_contact", as ``noli.verify`` says of ``frames``; "cannot_be" where what is given leaves no way;
+        "undecided".
+    frames : (frames, vertices, 3) float64
+        Those that were found; with frames inserted where straight lines between two would touch.
+    times : (frames,) float64
+        In steps: the given frame k has the time k, as far as the repair got.
+    """
+
+    def __init__(self, repair, frames, times):
+        self._repair, self.frames, self.times = repair, frames, times
+        self._json = json.loads(repair.json())
+
+    __bool__ = no_truth
+    verdict = property(lambda self: self._json["verdict"])
+
+    @property
+    def given_times(self):
+        """Numbers of the rows of ``frames`` that are at the times of given frames."""
+        return np.flatnonzero(self.times == np.floor(self.times))
+
+    def to_json(self):
+        """A dict, as ``noli repair --json`` writes it: displacements, steps that were changed, the obstacle."""
+        return self._json
+
+    def raise_unless_proved(self):
+        """Returns this if its verdict is "proved". Raises NotProved."""
+        if self.verdict != "proved":
+            raise NotProved(self.text().splitlines()[-1], self)
+        return self
+
+    def text(self):
+        """What ``noli repair`` prints."""
+        return self._repair.text()
+
+    def __str__(self):
+        return self.text()
+
+    def __repr__(self):
+        return f"<noli.Repaired: {self.text().splitlines()[-1]}>"
+
+
+def repair(
+    frames,
+    mesh=None,
+    *,
+    output=None,
+    fixed=None,
+    thickness=None,
+    masses=None,
+    restitution=0.1,
+    friction=0.0,
+    spread=0,
+    only_new=False,
+    points=False,
+    dimension=None,
+    proof=None,
+    check=True,
+    threads=0,
+    time_limit=None,
+    force=False,
+    resume=False,
+    progress=None,
+):
+    """Turns steps that touch into steps that do not, by contact alone; what touches nothing stays bit for bit.
+
+    Parameters
+    ----------
+    frames, mesh
+        As for ``noli.verify``; a generator is read to its end first.
+    output : str, optional
+        Where the new frames are written as well: "out/%04d.ply", .obj or .vtu.
+    fixed : (n,) whole numbers, or (vertices,) bool
+        Vertices that move as given, whatever they meet.
+    thickness : float
+        The gap that is aimed at, in the unit of the positions. Default: from the mesh.
+    masses : (vertices,) positive numbers, or "uniform"
+        Default: by area and length.
+    restitution, friction, spread
+        As ``noli repair`` has them.
+    only_new, points, dimension, proof, check, threads, time_limit, force, progress
+        As for ``noli.verify``.
+    resume : bool
+        With ``output``: goes on after the last complete step of an earlier call.
+
+    Returns
+    -------
+    Repaired
+
+    Raises
+    ------
+    InputError, UsageError, OSError
+    """
+    options = {"restitution": float(restitution), "friction": float(friction), "spread": int(spread)}
+    options.update(only_new=bool(only_new), points=bool(points), check=bool(check), threads=int(threads))
+    options.update(force=bool(force), resume=bool(resume))
+    if thickness is not None:
+        options["thickness"] = float(thickness)
+    if dimension is not None:
+        options["dimension"] = int(dimension)
+    if proof is not None:
+        options["proof"] = os.fspath(proof)
+    if time_limit is not None:
+        options["time_limit"] = min(float(time_limit), 1e9)
+    if fixed is not None:
+        options["fixed"] = _chosen(fixed)
+    if resume and output is None:
+        raise UsageError("resume: goes on with frames in files; expected output=")
+    names = file_names(frames)
+    given = given_frames(frames, mesh) if names is None else names
+    if names is not None and mesh is not None:
+        raise UsageError("mesh: frames in files have their own; expected none")
+    with tempfile.TemporaryDirectory() as scratch, progress_of(progress) as told:
+        if masses is not None:
+            options["masses"] = _masses(masses, scratch)
+        pattern = os.fspath(output) if output is not None else os.path.join(scratch, "frame_%06d.ply")
+        done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, told)
+        return Repaired(done, *_read(json.loads(done.json())))
+
+
+def read_frames(frames):
+    """Reads frames in files, as ``noli.verify`` names them.
+
+    Returns
+    -------
+    (frames, vertices, 3) float64, CollisionMesh
+
+    Raises
+    ------
+    InputError
+    """
+    names = file_names(frames)
+    if names is None:
+        raise UsageError("frames: expected names of files")
+    positions, faces, edges, points = _core.read_frames(names)
+    return np.array(positions), CollisionMesh(faces, edges=edges, points=points, vertex_count=len(positions[0]))
+
+
+def _chosen(fixed):
+    array = np.asarray(fixed)
+    return (np.flatnonzero(array) if array.dtype == bool else indices(array, 1, "fixed")).tolist()
+
+
+def _masses(masses, scratch):
+    if isinstance(masses, str):
+        if masses not in ("size", "uniform"):
+            raise UsageError(f'masses: expected "size", "uniform" or numbers, found {masses!r}')
+        return masses
+    array = numbers(masses, "masses").astype(np.float64)
+    if array.ndim != 1:
+        raise InputError(f"masses: has the shape {array.shape}; expected (vertices,)")
+    file = os.path.join(scratch, "masses.txt")
+    with open(file, "w", encoding="ascii") as out:
+        out.writelines(f"{mass!r}\n" for mass in array.tolist())
+    return file
+
+
+def _read(result):
+    """Positions and times of the frames that were written."""
+    table = result["times"]
+    if not os.path.exists(table):
+        return np.empty((0, result["vertices"], 3)), np.empty(0)
+    with open(table, newline="", encoding="utf-8") as rows:
+        listed = list(csv.reader(rows))[1:]
+    if not listed:
+        return np.empty((0, result["vertices"], 3)), np.empty(0)
+    folder = os.path.dirname(table)
+    positions = _core.read_frames([os.path.join(folder, row[0]) for row in listed])[0]
+    return np.array(positions), np.array([float(row[1]) for row in listed])

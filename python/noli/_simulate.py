@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes in motion, certified window by window."""
+
+import json
+import os
+import tempfile
+
+from . import _core
+from ._errors import NotProved
+from ._words import no_truth
+
+
+class Window:
+    """A piece of simulated time that was decided to be free of contact, and is on disk.
+
+    Attributes
+    ----------
+    index : int
+        From 1.
+    begin, end : float
+        [s]
+    positions, velocities : (vertices, 3) float64
+        At its end [m], [m/s].
+    energies : dict
+        At its end [J]: "kinetic", "potential" by kind of force, "total"; within it the work of "damping_work",
+        "held_work", "restitution_work" and "integration", what finite steps did.
+    momentum, angular_momentum : list of 3
+        [N s], [N m s]
+    """
+
+    def __init__(self, found):
+        self.__dict__.update(found)
+
+    def __repr__(self):
+        return f"<noli.Window {self.index}: {self.begin} s to {self.end} s>"
+
+
+class Simulation:
+    """Windows, one after another; see ``simulate``. After the last, ``result`` says how the run ended.
+
+    The simulation goes on in the background, at most one window ahead. ``close()``, the end of a ``with`` block, and an
+    exception in the loop end it at the last committed window; ``resume=True`` goes on from there.
+    """
+
+    __bool__ = no_truth
+
+    def __init__(self, scene, run, options):
+        self.run = os.fspath(run)
+        self._scene_file = None
+        if isinstance(scene, dict):
+            self._scene_file = tempfile.NamedTemporaryFile("w", suffix=".json")
+            json.dump(_with_whole_paths(scene), self._scene_file)
+            self._scene_file.flush()
+            scene = self._scene_file.name
+        self._simulation = _core.Simulation(os.fspath(scene), self.run, options)
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        try:
+            found = self._simulation.next()
+        except BaseException:
+            self.close()
+            raise
+        if found is None:
+            self.close()
+            raise StopIteration
+        return Window(found)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+
+    def close(self):
+        """Ends the simulation at the last committed window."""
+        self._simulation.close()
+        if self._scene_file is not None:
+            self._scene_file.close()
+
+    @property
+    def result(self):
+        """A dict, as ``noli simulate --json`` writes it; None while it goes on, or if it failed."""
+        return json.loads(self._simulation.json())
+
+    @property
+    def verdict(self):
+        """"no_contact", "contact", "too_near", "not_finite", "unstable" or "undecided"; None while it goes on."""
+        return None if self.result is None else self.result["verdict"]
+
+    def finish(self):
+        """Goes through all windows that are left, and returns this. Raises NotProved unless nothing touched."""
+        for _ in self:
+            pass
+        if self.verdict != "no_contact":
+            raise NotProved(self._simulation.text().splitlines()[-1], self)
+        return self
+
+    def __repr__(self):
+        return f"<noli.Simulation: {self.run}, {self.verdict or 'going on'}>"
+
+
+def simulate(
+    scene,
+    run,
+    *,
+    short=False,
+    resume=False,
+    force=False,
+    prove=True,
+    until=None,
+    past_duration=False,
+    ignore_space=False,
+    threads=0,
+    time_limit=None,
+):
+    """Runs a scene by the method of "Asynchronous Contact Mechanics" (Harmon et al. 2009), certified window by window.
+
+    Parameters
+    ----------
+    scene : path, or dict
+        ``noli schema scene`` says what can be in it. Meshes in files that a dict names are found from the working folder.
+    run : path
+        The folder that is made for it; ``noli.verify(run)`` verifies it again, from its files alone.
+    short : bool
+        The scene's short form.
+    resume, force : bool
+        Goes on with the run in the folder; replaces it.
+    until : float
+        Simulated time to stop at [s]; beyond the scene's duration only with ``past_duration``.
+    prove, ignore_space, threads, time_limit
+        As ``noli simulate`` has them; the limit in seconds.
+
+    Returns
+    -------
+    Simulation
+        An iterator of Window.
+
+    Raises
+    ------
+    InputError, UsageError, OSError
+        When the first window is asked for.
+    """
+    options = {"short": short, "resume": resume, "force": force, "prove": prove, "past_duration": past_duration}
+    options.update(ignore_space=ignore_space, threads=int(threads))
+    if until is not None:
+        options["until"] = float(until)
+    if time_limit is not None:
+        options["time_limit"] = min(float(time_limit), 1e9)
+    return Simulation(scene, run, options)
+
+
+def _with_whole_paths(value):
+    """The scene with each "file" of a mesh made absolute."""
+    if isinstance(value, list):
+        return [_with_whole_paths(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: os.path.abspath(item) if key == "file" and isinstance(item, (str, os.PathLike)) else _with_whole_paths(item)
+        for key, item in value.items()
+    }

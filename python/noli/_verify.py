@@ -1,0 +1,313 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Did anything touch between these frames?"""
+
+import json
+import os
+
+import numpy as np
+
+from . import _core
+from ._errors import Contact, NotProved, UsageError
+from ._frames import file_names, given_frames
+from ._words import KINDS, PAIRS, POINTS, no_truth, progress_of, require_new
+
+CONTACTS = np.dtype(
+    [
+        ("step", np.int64),
+        ("time", np.float64),
+        ("kind", "U10"),
+        ("pair", "U13"),
+        ("vertices", np.int64, 4),
+        ("point", np.float64, 3),
+    ]
+)
+
+
+class FirstContact:
+    """Where something touches first.
+
+    Attributes
+    ----------
+    step : int
+        From 1: from frame ``step - 1`` to frame ``step``, counted from 0. Of a run, the window.
+    time : float
+        In [0, 1] of the step, in seconds for a run: the largest double not above the exact time.
+    kind : str
+        "crossing", "touching" or "persistent".
+    pair : str
+        "vertex_face", "edge_edge", "vertex_edge" or "vertex_vertex".
+    features : tuple of two tuples
+        Vertices of both features.
+    point : (3,) float64
+        Where they meet, rounded; in the unit of the positions.
+    bodies : tuple of two names
+        Of both features; empty where there are no bodies.
+    """
+
+    def __init__(self, json):
+        first, second = json["features"]
+        self.step, self.time, self.kind, self.pair = json["step"], json["time"], json["kind"], json["pair"]
+        self.features = (tuple(first), tuple(second))
+        self.point = np.array(json["point"])
+        self.bodies = tuple(json.get("bodies", ("", "")))
+
+    def __repr__(self):
+        a, b = (" ".join(map(str, f)) for f in self.features)
+        return f"<{self.pair} {self.kind}, step {self.step}, t = {self.time:.6g}: {a} × {b}>"
+
+
+class Result:
+    """What was found, and what it is about. It is no bool: ask ``verdict``.
+
+    Attributes
+    ----------
+    verdict : str
+        "proved": nothing touches, and the checker accepted the proof. "no_contact": decided exactly, not checked.
+        "contact", "too_near", "undecided".
+    """
+
+    def __init__(self, outcome, mesh=None):
+        self._outcome, self._mesh, self._json = outcome, mesh, None
+
+    @property
+    def verdict(self):
+        return self._outcome.verdict
+
+    __bool__ = no_truth
+
+    def to_json(self):
+        """The result as a dict, as ``noli verify --json`` writes it: ``noli schema verify`` has its fields."""
+        if self._json is None:
+            self._json = json.loads(self._outcome.json())
+        return self._json
+
+    @property
+    def first(self):
+        """The first contact, a FirstContact; None if there is none, or cells intersect in the first frame."""
+        first = self.to_json()["first"]
+        return None if first is None else FirstContact(first)
+
+    @property
+    def contacts(self):
+        """Listed contacts (at most ``max_reports``), a structured array: step, time, kind, pair, vertices, point.
+
+        ``vertices`` are those of the first feature, then of the second, and -1 where a pair has fewer than four.
+        """
+        columns = self._outcome.contacts()
+        rows = np.empty(len(columns["step"]), CONTACTS)
+        for name in ("step", "time", "vertices", "point"):
+            rows[name] = columns[name]
+        rows["kind"] = KINDS[columns["kind"]]
+        rows["pair"] = PAIRS[columns["pair"]]
+        return rows
+
+    @property
+    def contact_count(self):
+        """How many pairs of features touch, listed or not; a lower bound unless ``complete``."""
+        return sum(self.to_json()["contacts"].values())
+
+    @property
+    def complete(self):
+        """Whether everything was decided that was asked."""
+        return self.to_json()["complete"]
+
+    def faces_in_contact(self, step):
+        """Numbers of the faces in listed contacts of a step (from 1), ascending."""
+        return self._outcome.faces_in_contact(step)
+
+    @property
+    def statement(self):
+        """What exactly was asked, a dict of texts."""
+        return self.to_json()["statement"]
+
+    @property
+    def inputs(self):
+        """What was looked at, a list of dicts: name, bytes, SHA-256, type of numbers, vertices, cells, frames.
+
+        The hash of frames in memory is that of all coordinates as little-endian doubles, (frames, vertices, 3).
+        """
+        return self.to_json()["inputs"]
+
+    @property
+    def notes(self):
+        """Remarks, a list of texts."""
+        return self.to_json()["notes"]
+
+    @property
+    def claim(self):
+        """What was claimed, a dict as ``noli verify --claim-out`` writes it: ``noli.check(..., claim=...)`` takes it."""
+        return json.loads(self._outcome.claim())
+
+    def raise_unless_proved(self):
+        """Returns this result if its verdict is "proved". Raises Contact, or NotProved."""
+        if self.verdict == "proved":
+            return self
+        text = self._outcome.text(False).splitlines()[-1]
+        if self.verdict != "contact":
+            raise NotProved(text, self)
+        raise Contact(text, self, self.first.time if self.first else None, self.contacts)
+
+    def report(self, file, *, title=None, force=False):
+        """Writes a page for a browser: verdict, motion, contacts, statement. Frames in memory have to be as they were."""
+        require_new(file, force)
+        self._outcome.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
+
+    def text(self, *, details=False):
+        """What ``noli verify`` prints; with ``details``, as with --verbose."""
+        return self._outcome.text(details)
+
+    def __str__(self):
+        return self.text()
+
+    def __repr__(self):
+        return f"<noli.Result: {self._outcome.text(False).splitlines()[-1]}>"
+
+    def _repr_html_(self):
+        from ._notebook import html_of
+
+        return html_of(self)
+
+
+def verify(
+    frames,
+    mesh=None,
+    *,
+    proof=None,
+    check=True,
+    min_distance=0.0,
+    ring=1,
+    only_new=False,
+    at_rest=False,
+    strict=False,
+    points=False,
+    merge_identical=False,
+    dimension=None,
+    keep_going=False,
+    first_only=False,
+    max_reports=100,
+    threads=0,
+    time_limit=None,
+    order="checked",
+    keys=(),
+    polygons="fan",
+    ignore=None,
+    reproduce=False,
+    scene_folder=None,
+    force=False,
+    progress=None,
+):
+    """Decides exactly whether anything touches between successive frames, or in the windows of a run.
+
+    Every vertex moves along a straight line from one frame to the next. Coordinates are taken as they are, without a
+    tolerance. A separate checker then checks a proof of the answer.
+
+    Parameters
+    ----------
+    frames : array (frames, vertices, 2 or 3), list of arrays, generator of arrays, or names of files
+        float32 or float64, in any order in memory; each frame is copied once, and hash and decision use the copy. A
+        generator may be of any length: two frames are in memory at a time. Names: files in the order of time, a
+        pattern ("cloth_*.obj"), a folder, a .npz file, or the folder of one run.
+    mesh : CollisionMesh, or (n, 3) faces
+        Needed for arrays; files have their own.
+    proof : path, optional
+        Where the proof is written, for ``noli.check`` and ``noli check``.
+    check : bool
+        Has the checker look at the proof: only then a verdict is "proved".
+    min_distance : float
+        All features must stay more than this apart, in the unit of the positions; those fewer than ``ring`` mesh edges
+        apart need only be disjoint.
+    only_new : bool
+        Leaves out pairs of cells that intersect in the first frame.
+    at_rest : bool
+        Takes each frame by itself: does the mesh intersect itself?
+    strict : bool
+        Also compares features of one cell with each other.
+    points : bool
+        Vertices without a cell are particles.
+    merge_identical : bool
+        Merges vertices whose coordinates are equal in all frames; reads the frames twice.
+    dimension : 2 or 3, optional
+        2 ignores z. Default: 2 if the first two frames have one z, else 3.
+    keep_going : bool
+        Goes through all steps instead of stopping after the first with contacts.
+    first_only : bool
+        Stops at any contact.
+    max_reports : int
+        How many contacts are listed; counts do not depend on it.
+    threads : int
+        0: all there are.
+    time_limit : float, optional
+        Seconds; what is not decided by then is "undecided".
+    order, keys, polygons, ignore, reproduce, scene_folder
+        For files, as ``noli verify`` has them.
+    force : bool
+        Replaces an existing proof.
+    progress : callable, True or None
+        Called as ``progress(work, share)``; True shows a bar, with tqdm if it is installed.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    InputError, UsageError
+        With the text that ``noli verify`` prints.
+    OSError
+        A proof that cannot be written.
+    KeyboardInterrupt
+        On Ctrl-C, within a tenth of a second.
+    """
+    options = {
+        "check": bool(check),
+        "min_distance": float(min_distance),
+        "ring": int(ring),
+        "only_new": bool(only_new),
+        "at_rest": bool(at_rest),
+        "strict": bool(strict),
+        "points": bool(points),
+        "merge_identical": bool(merge_identical),
+        "keep_going": bool(keep_going),
+        "first_only": bool(first_only),
+        "max_reports": int(max_reports),
+        "threads": int(threads),
+        "reproduce": bool(reproduce),
+    }
+    if not np.isfinite(min_distance) or min_distance < 0:
+        raise UsageError(f"min_distance: expected a distance, found {min_distance}")
+    if not 1 <= int(ring) <= 255:
+        raise UsageError(f"ring: expected 1 to 255, found {ring}")
+    if dimension not in (None, 2, 3):
+        raise UsageError(f"dimension: expected 2 or 3, found {dimension}")
+    if max_reports < 0:
+        raise UsageError(f"max_reports: expected 0 or more, found {max_reports}")
+    if time_limit is not None and not time_limit > 0:
+        raise UsageError(f"time_limit: expected seconds, found {time_limit}")
+    if dimension is not None:
+        options["dimension"] = int(dimension)
+    if time_limit is not None:
+        options["time_limit"] = min(float(time_limit), 1e9)
+    if proof is not None:
+        require_new(proof, force)
+        options["proof"] = os.fspath(proof)
+    names = file_names(frames)
+    if names is None:
+        given = given_frames(frames, mesh)
+        with progress_of(progress) as told:
+            return Result(_core.Outcome(given, given.mesh, options, told), given.mesh)
+    if mesh is not None:
+        raise UsageError("mesh: frames in files have their own; expected none")
+    if order not in ("checked", "natural", "given"):
+        raise UsageError(f'order: expected "checked", "natural" or "given", found {order!r}')
+    if polygons not in ("fan", "refuse"):
+        raise UsageError(f'polygons: expected "fan" or "refuse", found {polygons!r}')
+    options["order"] = order
+    options["keys"] = list(keys)
+    if polygons == "refuse":
+        options["refuse_polygons"] = True
+    if ignore is not None:
+        options["ignore"] = os.fspath(ignore)
+    if scene_folder is not None:
+        options["scene_folder"] = os.fspath(scene_folder)
+    with progress_of(progress) as told:
+        return Result(_core.Outcome(names, None, options, told))

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Arrays of numpy, and what they are here. Precondition of all functions: the interpreter's lock, except where they say
+// otherwise.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <noli/mesh.h>
+
+namespace noli::python {
+
+/// Positions in an array (..., vertices, 2 or 3) of float32 or float64, with any strides.
+class PositionArray {
+ public:
+  /// Keeps the array. Precondition: its type and shape.
+  explicit PositionArray(pybind11::array array);
+
+  std::size_t vertices() const { return vertices_; }
+  /// Of a three-dimensional array; 1 otherwise.
+  std::size_t frames() const { return frames_; }
+  const char* numbers() const { return single_ ? "float32" : "float64"; }
+  /// Copies one frame; two coordinates get z = 0. Needs no lock.
+  std::vector<Position> frame(std::size_t k) const;
+
+ private:
+  pybind11::array array_;
+  const char* data_;
+  std::size_t frames_ = 1, vertices_ = 0;
+  int coordinates_ = 3;
+  bool single_ = false;
+  pybind11::ssize_t frame_stride_ = 0, vertex_stride_ = 0, coordinate_stride_ = 0;
+};
+
+/// (vertices, 3), float64.
+pybind11::array_t<double> array_of(const std::vector<Position>& positions);
+
+/// A mesh of arrays (n, 3), (n, 2), (n) of int64, with any strides. Precondition: every index is below vertex_count.
+Mesh mesh_of(std::size_t vertex_count, const pybind11::array_t<std::int64_t>& faces,
+             const pybind11::array_t<std::int64_t>& edges, const pybind11::array_t<std::int64_t>& points);
+
+/// An array that has the vector's numbers.
+template <class Number>
+pybind11::array_t<Number> array_of(const std::vector<Number>& numbers) {
+  return pybind11::array_t<Number>(static_cast<pybind11::ssize_t>(numbers.size()), numbers.data());
+}
+
+}  // namespace noli::python

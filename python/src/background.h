@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Work in a thread of its own, while the interpreter's thread hears signals and answers calls.
+//
+//   in_background([&](Background& background) { outcome = run_verify(request); });
+//
+// The thread of the work begins with the floating-point environment that the kernel expects (noli/contact.h), whatever
+// libraries of the interpreter's process have made of theirs: some of them flush subnormal numbers to 0.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+
+namespace noli::python {
+
+class Background {
+ public:
+  /// `stop`: where a request to end goes.
+  explicit Background(std::atomic<bool>& stop) : stop_(stop) {}
+
+  /// Becomes true when the interpreter has an exception, KeyboardInterrupt for example: the work has to end.
+  const std::atomic<bool>* stop() const { return &stop_; }
+
+  /// From any thread of the work: has the interpreter's thread do something, with its lock, and waits. Throws Stopped
+  /// if it raised an exception, then or before.
+  void call(const std::function<void()>& task);
+
+  /// For progress: whether so much time has passed since it was last true that people want to see more.
+  bool is_due();
+
+ private:
+  friend void in_background(std::atomic<bool>& stop, const std::function<void(Background&)>& work);
+
+  void wait_for_calls();
+  void answer(std::unique_lock<std::mutex>& lock);
+  void hear_signals(std::unique_lock<std::mutex>& lock);
+  void end();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  const std::function<void()>* task_ = nullptr;
+  bool answered_ = false, ended_ = false;
+  std::atomic<bool>& stop_;
+  std::exception_ptr raised_;  ///< by the interpreter
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Does the work, and returns when it has ended. Throws what a call or a signal raised, else what the work threw.
+/// Precondition: this thread has the interpreter's lock.
+void in_background(const std::function<void(Background&)>& work);
+
+/// The same for work whose parts outlive a call, and with them the place where they look for a request to end.
+void in_background(std::atomic<bool>& stop, const std::function<void(Background&)>& work);
+
+}  // namespace noli::python

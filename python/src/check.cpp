@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <noli/errors.h>
+#include <noli/proof.h>
+#include "certify/process/hdf5_frames.h"
+#include "certify/proofs/asked_fields.h"
+#include "certify/proofs/check_frames.h"
+#include "certify/proofs/checker.h"
+#include "python/src/bindings.h"
+#include "python/src/frames.h"
+#include "python/src/options.h"
+#include "report/check_report.h"
+#include "trajectory/formats/frame_names.h"
+
+namespace noli::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+/// A proof, and the frames or the run that it is about.
+class Check {
+ public:
+  Check(fs::path proof, const py::object& frames, std::vector<std::string> asked, bool verified)
+      : which_(verified ? Checker::verified : Checker::plain) {
+    checked_.proof = std::move(proof);
+    checked_.asked = std::move(asked);
+    if (py::hasattr(frames, "vertices")) {
+      given_.emplace(frames);
+    } else {
+      name_files(frames.cast<std::vector<fs::path>>());
+    }
+    in_background([&](Background& background) {
+      if (given_) given_->call_through(&background);
+      ask(background);
+    });
+  }
+
+  std::string json() const { return to_text(report::check_json(checked_)); }
+  std::string text() const {
+    report::Answer answer = report::check_answer(checked_);
+    answer.next.clear();  // is about options of the command
+    return answer.words_above(false) + answer.last_line();
+  }
+
+ private:
+  void name_files(std::vector<fs::path> names) {
+    OrderedFrames ordered = order_frames(named_frames(std::move(names)));
+    files_ = std::move(ordered.frames);
+    checked_.notes = std::move(ordered.notes);
+    if (files_.size() == 1 && fs::is_directory(files_[0])) {
+      ask_for_all_windows(files_[0], checked_.asked, checked_.notes);
+    }
+  }
+
+  void ask(Background& background) {
+    const CheckRequest request{.checker = which_,
+                               .proof = checked_.proof,
+                               .trajectory = trajectory_for_checker(files_),
+                               .asked = checked_.asked,
+                               .stop = background.stop()};
+    if (!given_ && checkers_read(request.trajectory)) {
+      checked_.verdict = check_proof(request);
+    } else {
+      FrameReading reading;
+      std::vector<fs::path> names = request.trajectory;
+      if (given_) reading.given = given_->given();
+      if (given_) names = {"frames"};
+      auto verdict = check_frames(request, *open_all_frames(names, reading));
+      if (!verdict) throw Stopped(StopReason::interrupted, checked_.proof.string());
+      checked_.verdict = *std::move(verdict);
+    }
+    checked_.checker = version_of(which_);
+  }
+
+  Checker which_;
+  std::vector<fs::path> files_;
+  std::optional<Frames> given_;
+  report::Checked checked_;
+};
+
+}  // namespace
+
+void bind_check(py::module_& core) {
+  py::class_<Check>(core, "Check")
+      .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool>())
+      .def("json", &Check::json)
+      .def("text", &Check::text);
+  core.def("read_claim_file", &read_claim_file);
+}
+
+}  // namespace noli::python

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/pybind11.h>
+
+#include <system_error>
+
+#include <noli/errors.h>
+#include "python/src/bindings.h"
+
+namespace noli::python {
+namespace {
+
+namespace py = pybind11;
+
+void raise(const char* name, const char* what) {
+  const py::object type = py::module_::import("noli._errors").attr(name);
+  PyErr_SetString(type.ptr(), what);
+}
+
+/// OSError(errno, text), of which Python makes PermissionError and others.
+void raise_system(const std::system_error& error) {
+  const py::tuple arguments = py::make_tuple(error.code().value(), error.what());
+  PyErr_SetObject(PyExc_OSError, arguments.ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const InputError& error) {
+    raise("InputError", error.what());
+  } catch (const UsageError& error) {
+    raise("UsageError", error.what());
+  } catch (const Stopped& error) {
+    raise("Stopped", error.what());
+  } catch (const WriteError& error) {
+    raise("NoliError", error.what());
+  } catch (const HelperError& error) {
+    raise("NoliError", error.what());
+  } catch (const std::system_error& error) {
+    raise_system(error);
+  }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& /*core*/) { py::register_local_exception_translator(&translate); }
+
+}  // namespace noli::python

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options as a dict of Python: those that it has are set.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "python/src/background.h"
+
+namespace noli::python {
+
+template <class Value>
+void put(const pybind11::dict& options, const char* name, Value& member) {
+  if (options.contains(name)) member = options[name].cast<Value>();
+}
+
+/// "time_limit", in seconds from now.
+inline std::optional<std::chrono::steady_clock::time_point> deadline_of(const pybind11::dict& options) {
+  using Clock = std::chrono::steady_clock;
+  if (!options.contains("time_limit")) return std::nullopt;
+  const std::chrono::duration<double> limit(options["time_limit"].cast<double>());
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
+/// For a request of Noli, which is done in the background: calls `progress` unless that is None. Both outlive it.
+inline std::function<void(std::string_view, double)> progress_to(const pybind11::object& progress,
+                                                                 Background& background) {
+  if (progress.is_none()) return {};
+  return [&progress, &background](std::string_view work, double share) {
+    if (!background.is_due()) return;
+    background.call([&] { progress(std::string(work), share); });
+  };
+}
+
+}  // namespace noli::python

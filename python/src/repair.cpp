@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <noli/repair.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certify/process/hdf5_frames.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/bindings.h"
+#include "python/src/frames.h"
+#include "python/src/options.h"
+#include "report/repair_report.h"
+#include "trajectory/blocks/frames_file.h"
+#include "trajectory/formats/frame_names.h"
+#include "trajectory/formats/frame_sequence.h"
+
+namespace noli::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+void put_options(const py::dict& options, RepairRequest& request) {
+  put(options, "dimension", request.dimension);
+  put(options, "threads", request.threads);
+  put(options, "points", request.points);
+  put(options, "only_new", request.only_new);
+  put(options, "fixed", request.fixed_listed);
+  put(options, "thickness", request.thickness);
+  put(options, "masses", request.masses);
+  put(options, "restitution", request.restitution);
+  put(options, "friction", request.friction);
+  put(options, "spread", request.spread);
+  put(options, "proof", request.proof);
+  put(options, "check", request.check);
+  put(options, "force", request.force);
+  put(options, "resume", request.resume);
+  request.deadline = deadline_of(options);
+}
+
+/// Frames in memory go through a block file, which keeps every bit.
+class Repair {
+ public:
+  Repair(const py::object& frames, const py::object& mesh, std::string pattern, const py::dict& options,
+         const py::object& progress) {
+    put_options(options, request_);
+    request_.pattern = std::move(pattern);
+    std::shared_ptr<const IgnoredGroups> ignored;
+    std::optional<Frames> given;
+    if (py::hasattr(frames, "vertices")) {
+      given.emplace(frames);
+      ignored = ignored_groups_of(mesh, given->given()->mesh.vertex_count);
+      if (ignored) request_.ignore = ignored->file;
+    } else {
+      request_.frames = named_frames(frames.cast<std::vector<fs::path>>());
+    }
+    in_background([&](Background& background) {
+      const ScratchFolder folder;
+      if (given) {
+        given->call_through(&background);
+        request_.frames = {folder.path() / "frames.blocks"};
+        write_frames(*given, request_.frames[0]);
+      }
+      request_.stop = background.stop();
+      request_.progress = progress_to(progress, background);
+      outcome_ = run_repair(request_);
+    });
+    request_.stop = nullptr;
+    request_.progress = {};
+  }
+
+  std::string json() const { return to_text(report::repair_json(request_, outcome_)); }
+  std::string text() const {
+    report::Answer answer = report::repair_answer(request_, outcome_);
+    answer.next.clear();  // is about options of the command
+    return answer.words_above(false) + answer.last_line();
+  }
+
+ private:
+  static void write_frames(const Frames& given, const fs::path& file) {
+    FrameReading reading;
+    reading.given = given.given();
+    const auto source = open_all_frames({"frames"}, reading);
+    std::optional<FramesWriter> writer;
+    FrameSequence sequence(*source, Motion::constant);
+    while (sequence.next()) {
+      if (!writer) {
+        writer.emplace(std::make_unique<FileSink>(file, FileSink::Open::create), sequence.mesh());
+      }
+      writer->append(sequence.x_t0());
+    }
+    if (writer) writer->finish();
+  }
+
+  RepairRequest request_;
+  RepairOutcome outcome_;
+};
+
+template <std::size_t Size>
+py::array_t<std::int64_t> rows_of(const std::vector<std::array<VertexId, Size>>& cells) {
+  py::array_t<std::int64_t> rows({static_cast<py::ssize_t>(cells.size()), static_cast<py::ssize_t>(Size)});
+  std::int64_t* place = rows.mutable_data();
+  for (const auto& cell : cells) place = std::copy(cell.begin(), cell.end(), place);
+  return rows;
+}
+
+/// (positions of each frame, faces, edges, points) of frames in files.
+py::tuple read_frames(const std::vector<fs::path>& names) {
+  std::vector<std::vector<Position>> frames;
+  Mesh mesh;
+  in_background([&](Background& background) {
+    const OrderedFrames ordered = order_frames(named_frames(names));
+    const auto source = open_all_frames(ordered.frames);
+    FrameSequence sequence(*source, Motion::constant);
+    while (!background.stop()->load() && sequence.next()) {
+      frames.emplace_back(sequence.x_t0().begin(), sequence.x_t0().end());
+    }
+    mesh = sequence.mesh();
+  });
+  py::list positions;
+  for (const auto& frame : frames) positions.append(array_of(frame));
+  return py::make_tuple(positions, rows_of(mesh.faces), rows_of(mesh.edges),
+                        array_of(std::vector<std::int64_t>(mesh.points.begin(), mesh.points.end())));
+}
+
+}  // namespace
+
+void bind_repair(py::module_& core) {
+  py::class_<Repair>(core, "Repair")
+      .def(py::init<const py::object&, const py::object&, std::string, const py::dict&, const py::object&>())
+      .def("json", &Repair::json)
+      .def("text", &Repair::text);
+  core.def("read_frames", &read_frames);
+}
+
+}  // namespace noli::python

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <noli/simulate.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cfenv>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "certify/runs/run_series_reader.h"
+#include "python/src/arrays.h"
+#include "python/src/bindings.h"
+#include "python/src/options.h"
+#include "report/simulate_report.h"
+
+namespace noli::python {
+namespace {
+
+namespace py = pybind11;
+
+py::dict by_kind(const std::array<double, force_kinds>& numbers) {
+  py::dict named;
+  for (std::size_t k = 0; k < force_kinds; ++k) {
+    named[py::str(std::string(name(static_cast<ForceKind>(k))))] = numbers[k];
+  }
+  return named;
+}
+
+py::dict energies_of(const SeriesRow& row) {
+  py::dict energies;
+  energies["kinetic"] = row.kinetic_mean;
+  energies["potential"] = by_kind(row.potential);
+  energies["total"] = row.energy();
+  energies["damping_work"] = by_kind(row.damping_work);
+  energies["held_work"] = by_kind(row.held_work);
+  energies["restitution_work"] = row.restitution_work;
+  energies["integration"] = row.integration;
+  return energies;
+}
+
+/// A simulation in a thread of its own, which is at most one window ahead of who asks for windows.
+class Simulation {
+ public:
+  Simulation(std::filesystem::path scene, std::filesystem::path run, const py::dict& options) {
+    request_.scene = std::move(scene);
+    request_.run = std::move(run);
+    put(options, "short", request_.brief);
+    put(options, "resume", request_.resume);
+    put(options, "force", request_.force);
+    put(options, "prove", request_.prove);
+    put(options, "until", request_.until);
+    put(options, "past_duration", request_.past_duration);
+    put(options, "ignore_space", request_.ignore_space);
+    put(options, "threads", request_.threads);
+    request_.deadline = deadline_of(options);
+    request_.stop = &stop_;
+    request_.keep_going = [this](const SeriesRow& row) { return offer(row); };
+    thread_ = std::thread([this] { work(); });
+  }
+  ~Simulation() { close(); }
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// The next window, or None behind the last. Throws what the simulation threw.
+  py::object next() {
+    const std::optional<SeriesRow> row = wait_for_row();
+    if (!row) return py::none();
+    std::optional<RunWindow> window;
+    {
+      const py::gil_scoped_release unlocked;
+      window = read_up_to(row->time);
+    }
+    py::dict found;
+    found["index"] = window->index + 1;
+    found["begin"] = window->begin;
+    found["end"] = window->end;
+    found["positions"] = array_of(window->positions);
+    found["velocities"] = array_of(window->velocities);
+    found["energies"] = energies_of(*row);
+    found["momentum"] = row->momentum;
+    found["angular_momentum"] = row->angular_momentum;
+    return found;
+  }
+
+  /// Ends it at the last committed window, and waits for that.
+  void close() {
+    stop_ = true;
+    changed_.notify_all();
+    const py::gil_scoped_release unlocked;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  /// Once it has ended.
+  std::string json() const { return outcome_ ? to_text(report::simulate_json(request_, *outcome_)) : "null"; }
+  std::string text() const {
+    if (!outcome_) return "";
+    report::Answer answer = report::simulate_answer(report::simulate_json(request_, *outcome_), request_, *outcome_);
+    answer.next.clear();  // is about options of the command
+    return answer.words_above(false) + answer.last_line();
+  }
+
+ private:
+  void work() {
+    std::fesetenv(FE_DFL_ENV);
+    try {
+      outcome_ = run_simulate(request_);
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+
+  bool offer(const SeriesRow& row) {
+    std::unique_lock lock(mutex_);
+    while (row_ && !stop_) changed_.wait_for(lock, std::chrono::milliseconds(50));
+    if (stop_) return false;
+    row_ = row;
+    changed_.notify_all();
+    return true;
+  }
+
+  std::optional<SeriesRow> wait_for_row() {
+    std::optional<SeriesRow> row;
+    for (bool settled = false; !settled;) {
+      {
+        const py::gil_scoped_release unlocked;
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return row_ || ended_; });
+        settled = row_ || ended_;
+        row = std::exchange(row_, std::nullopt);
+        changed_.notify_all();
+      }
+      if (!settled && PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+    if (!row && thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+    return row;
+  }
+
+  /// The window that ends then. Those before it were there when a run was resumed.
+  RunWindow read_up_to(double time) {
+    if (!reader_) reader_.emplace(request_.run);
+    while (true) {
+      reader_->look_again();
+      if (auto window = reader_->next_window(); window && window->end >= time) return *std::move(window);
+    }
+  }
+
+  SimulateRequest request_;
+  std::optional<SimulateOutcome> outcome_;
+  std::optional<SeriesReader> reader_;
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<SeriesRow> row_;  ///< committed, and not asked for yet
+  bool ended_ = false;
+  std::exception_ptr thrown_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+void bind_simulate(py::module_& core) {
+  py::class_<Simulation>(core, "Simulation")
+      .def(py::init<std::filesystem::path, std::filesystem::path, const py::dict&>())
+      .def("next", &Simulation::next)
+      .def("close", &Simulation::close)
+      .def("json", &Simulation::json)
+      .def("text", &Simulation::text);
+}
+
+}  // namespace noli::python

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <noli/verify.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <noli/errors.h>
+#include <noli/version.h>
+#include "certify/process/hdf5_frames.h"
+#include "certify/proofs/claim.h"
+#include "certify/proofs/proof_route.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/bindings.h"
+#include "python/src/frames.h"
+#include "python/src/options.h"
+#include "report/page/report_page.h"
+#include "report/page/report_results.h"
+#include "report/page/report_run.h"
+#include "report/page/report_verdict.h"
+#include "report/verify_report.h"
+#include "trajectory/formats/frame_names.h"
+#include "trajectory/write_file.h"
+
+namespace noli::python {
+namespace {
+
+namespace py = pybind11;
+
+void put_options(const py::dict& options, VerifyRequest& request) {
+  put(options, "dimension", request.dimension);
+  put(options, "threads", request.threads);
+  put(options, "max_reports", request.max_reports);
+  put(options, "keep_going", request.keep_going);
+  put(options, "first_only", request.first_only);
+  put(options, "strict", request.strict);
+  put(options, "points", request.points);
+  put(options, "at_rest", request.constant_motion);
+  put(options, "merge_identical", request.merge_identical);
+  put(options, "ignore", request.ignore);
+  put(options, "only_new", request.only_new);
+  put(options, "min_distance", request.min_distance);
+  put(options, "ring", request.ring);
+  put(options, "reproduce", request.reproduce);
+  put(options, "scene_folder", request.scene_folder);
+  put(options, "proof", request.proof);
+  put(options, "trajectory", request.trajectory);
+  put(options, "check", request.check);
+  put(options, "keys", request.reading.keys);
+  if (options.contains("refuse_polygons")) request.reading.polygons = PolygonRule::refuse;
+  if (options.contains("order")) {
+    const auto order = options["order"].cast<std::string>();
+    request.order = order == "natural" ? FrameOrder::natural
+                    : order == "given" ? FrameOrder::given
+                                       : FrameOrder::checked;
+  }
+  request.deadline = deadline_of(options);
+}
+
+class Outcome {
+ public:
+  /// `frames`: names of files, or a noli._frames.Given. `progress`: None, or called with the work and the share done.
+  Outcome(const py::object& frames, const py::object& mesh, const py::dict& options, const py::object& progress) {
+    put_options(options, request_);
+    if (py::hasattr(frames, "vertices")) {
+      given_.emplace(frames);
+      request_.frames = {frames.attr("name").cast<std::string>()};
+      request_.reading.given = given_->given();
+      request_.ordered = "as given, in memory";
+      ignored_ = ignored_groups_of(mesh, given_->given()->mesh.vertex_count);
+      if (ignored_) request_.ignore = ignored_->file;
+    } else {
+      name_files(frames.cast<std::vector<std::filesystem::path>>());
+    }
+    run(progress);
+  }
+
+  const VerifyOutcome& outcome() const { return outcome_; }
+  std::string json() const { return to_text(report::verify_json(request_, outcome_)); }
+  std::string claim() const { return to_text(claim_file(outcome_.claim)); }
+  std::string text(bool details) const {
+    report::Answer answer = report::verify_answer(request_, outcome_, {.result = "", .details = details});
+    answer.next.clear();  // is about options of the command
+    return answer.words_above(details) + answer.last_line();
+  }
+
+  /// One row for each listed contact.
+  py::dict contacts() const {
+    const auto count = static_cast<py::ssize_t>(outcome_.reports.size());
+    py::array_t<std::int64_t> step(count), kind(count), pair(count), vertices({count, py::ssize_t{4}});
+    py::array_t<double> time(count), point({count, py::ssize_t{3}});
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const ListedContact& listed = outcome_.reports[static_cast<std::size_t>(i)];
+      step.mutable_at(i) = static_cast<std::int64_t>(listed.step);
+      kind.mutable_at(i) = static_cast<std::int64_t>(listed.kind);
+      pair.mutable_at(i) = static_cast<std::int64_t>(listed.contact.pair);
+      time.mutable_at(i) = listed.time;
+      for (int j = 0; j < 4; ++j) {
+        const bool there = static_cast<std::size_t>(j) < point_count(listed.contact.pair);
+        const auto vertex = listed.contact.vertices[static_cast<std::size_t>(j)];
+        vertices.mutable_at(i, j) = there ? static_cast<std::int64_t>(vertex) : -1;
+      }
+      for (int j = 0; j < 3; ++j) point.mutable_at(i, j) = listed.point[static_cast<std::size_t>(j)];
+    }
+    py::dict columns;
+    columns["step"] = step;
+    columns["time"] = time;
+    columns["kind"] = kind;
+    columns["pair"] = pair;
+    columns["vertices"] = vertices;
+    columns["point"] = point;
+    return columns;
+  }
+
+  /// Those of the listed contacts and intersections of a step.
+  py::array_t<std::int64_t> faces_in_contact(std::size_t step) const {
+    std::set<std::int64_t> faces;
+    const auto add = [&](std::uint32_t cell) {
+      if (cell < outcome_.faces) faces.insert(cell);
+    };
+    for (const ListedContact& listed : outcome_.reports) {
+      if (listed.step != step) continue;
+      for (const auto& cells : listed.cells) std::ranges::for_each(cells, add);
+    }
+    for (const ListedInitial& listed : outcome_.initial_reports) {
+      if (listed.step != step) continue;
+      add(listed.pair.first_cell);
+      add(listed.pair.second_cell);
+    }
+    return array_of(std::vector<std::int64_t>(faces.begin(), faces.end()));
+  }
+
+  /// A page, as `noli report` writes it.
+  void report(const std::filesystem::path& file, const std::string& title) {
+    in_background([&](Background& background) {
+      if (given_) given_->call_through(&background);
+      replace_file(file, page(title));
+    });
+  }
+
+ private:
+  void name_files(std::vector<std::filesystem::path> names) {
+    request_.frames = named_frames(std::move(names));
+    request_.run = request_.frames.size() == 1 && std::filesystem::is_directory(request_.frames[0]);
+    if (!request_.run) request_.put_in_order();
+  }
+
+  void run(const py::object& progress) {
+    in_background([&](Background& background) {
+      if (given_) given_->call_through(&background);
+      request_.stop = background.stop();
+      request_.progress = progress_to(progress, background);
+      ProofRoute route(request_);
+      outcome_ = request_.run ? run_verify_motion(request_) : run_verify(request_);
+      route.check(outcome_);
+    });
+    request_.stop = nullptr;
+    request_.progress = {};
+  }
+
+  std::string page(const std::string& title) const {
+    if (!report::has_report_page())
+      throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
+    report::ReportPage page;
+    page.page = report::empty_page();
+    if (request_.run) {
+      report::report_run(request_.frames[0], {}, page);
+    } else {
+      const auto frames = open_all_frames(request_.frames, request_.reading);
+      for (std::size_t k = 0; k < frames->count().value_or(0); ++k) frames->look_at(k);
+      report::report_frames(*frames, {request_.constant_motion, outcome_.dimension == 2}, {}, page);
+      require_same(frames->take_facts());
+    }
+    report::put_verdict(Json::parse(json()), "result", page);
+    page.page["title"] = title;
+    return report::report_html(page);
+  }
+
+  void require_same(const std::vector<FrameFacts>& shown) const {
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      if (i < outcome_.inputs.size() && shown[i].sha256 == outcome_.inputs[i].sha256) continue;
+      throw InputError(shown[i].file, "", "has changed since it was verified; expected the frames of this result");
+    }
+  }
+
+  VerifyRequest request_;
+  VerifyOutcome outcome_;
+  std::optional<Frames> given_;
+  std::shared_ptr<const IgnoredGroups> ignored_;
+};
+
+}  // namespace
+
+void bind_verify(py::module_& core) {
+  py::class_<Outcome>(core, "Outcome")
+      .def(py::init<const py::object&, const py::object&, const py::dict&, const py::object&>())
+      .def_property_readonly("verdict", [](const Outcome& self) { return std::string(name(self.outcome().verdict)); })
+      .def_property_readonly("interrupted", [](const Outcome& self) { return self.outcome().interrupted; })
+      .def("json", &Outcome::json)
+      .def("claim", &Outcome::claim)
+      .def("text", &Outcome::text)
+      .def("contacts", &Outcome::contacts)
+      .def("faces_in_contact", &Outcome::faces_in_contact)
+      .def("report", &Outcome::report);
+}
+
+}  // namespace noli::python

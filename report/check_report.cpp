@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/check_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "certify/proofs/asked_fields.h"
+#include "certify/proofs/claim.h"
+#include "report/input_report.h"
+#include "trajectory/text.h"
+
+namespace noli::report {
+namespace {
+
+Json asked_json(const std::vector<std::string>& words) {
+  Json json = Json::object();
+  for (const std::string& word : words) {
+    const std::string field = field_of(word);
+    json[field] = field == word ? "1" : word.substr(field.size() + 1);  // a bare word means 1
+  }
+  return json;
+}
+
+/// What follows the first "; " of the checker's first line: what weakens the claim, or on what the witness rests.
+Json weaker_json(const std::string& words) {
+  Json list = Json::array();
+  const std::string line = first_line(words);
+  for (std::size_t at = line.find("; "); at != std::string::npos;) {
+    const std::size_t end = line.find("; ", at + 2);
+    list.push_back(line.substr(at + 2, end == std::string::npos ? end : end - at - 2));
+    at = end;
+  }
+  return list;
+}
+
+const char* word_of(const CheckerVerdict& verdict) {
+  return verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
+}
+
+std::string next_step(const CheckerVerdict& verdict, bool plain) {
+  const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
+  switch (verdict.code) {
+    case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
+    case 1: return "noli verify with the same frames or run shows where and when.";
+    default:
+      return names_remedy
+                 ? ""
+                 : "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
+  }
+}
+
+}  // namespace
+
+Json check_json(const Checked& checked) {
+  const auto& [checker, proof, asked, verdict, notes] = checked;
+  const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
+  return {{"verdict", word_of(verdict)},
+          {"checker", checker_json(checker)},
+          {"proof", proof.string()},
+          {"asked", asked_json(asked)},
+          {"claim", claim ? claim_json(*claim) : Json(nullptr)},
+          {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
+          {"words", verdict.words},
+          {"notes", notes}};
+}
+
+/// The checker's first line without its verdict is the place; the line for programs is among the details.
+Answer check_answer(const Checked& checked) {
+  const auto& [checker, proof, asked, verdict, notes] = checked;
+  const std::string line = first_line(verdict.words);
+  const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
+  Answer answer(check_json(checked), {"checker=checker/name", "version=checker/version"});
+  answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
+  answer.text += notes_text(notes);
+  answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
+  std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
+  constexpr std::string_view touches = "touches";
+  const auto claim = claim_of_words(verdict.words);
+  const std::size_t at = what.find(touches);
+  if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
+  answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
+  answer.next = next_step(verdict, checker.name == "noli_check");
+  return answer;
+}
+
+}  // namespace noli::report

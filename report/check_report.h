@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of `noli check`: its JSON, and its answer for people and machines.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <noli/proof.h>
+#include "certify/json.h"
+#include "report/answer.h"
+
+namespace noli::report {
+
+/// What a checker said of a proof, and what it was asked.
+struct Checked {
+  CheckerVersion checker;
+  std::filesystem::path proof;
+  std::vector<std::string> asked;  ///< as CheckRequest::asked
+  CheckerVerdict verdict;
+  std::vector<std::string> notes;
+};
+
+/// Schema check.
+Json check_json(const Checked& checked);
+
+Answer check_answer(const Checked& checked);
+
+}  // namespace noli::report
