@@ -9,22 +9,13 @@
 #include <utility>
 
 #include <noli/errors.h>
-#include <noli/version.h>
-#include "app/schema_texts.h"
 #include "app/terminal.h"
 #include "certify/result_file.h"
+#include "report/documents.h"
 #include "report/page/report_verdict.h"
 
 namespace noli::app {
 namespace {
-
-/// As the schema of this name says. Precondition: there is one.
-Json version_of(std::string_view schema) {
-  for (const SchemaText& one : schema_texts()) {
-    if (one.name == schema) return Json::parse(one.text).at("properties").at("version").at("const");
-  }
-  throw std::logic_error("no schema of this name");
-}
 
 std::string verdict_in_colour(const report::Answer& answer) {
   switch (report::tone_of(answer.verdict())) {
@@ -57,10 +48,7 @@ std::string Output::words(const report::Answer& answer) const {
 void Output::write(std::string_view schema, const report::Answer& answer, Json json) const {
   const std::optional<std::string>& path = options_.json;
   if (!path) return write_standard_output(words(answer));
-  Json document = {{"schema", fmt::format("noli-{}", schema)},
-                   {"version", version_of(schema)},
-                   {"noli", {{"version", version_number()}, {"commit", version_commit()}}}};
-  for (const auto& item : json.items()) document[item.key()] = std::move(item.value());
+  const Json document = report::document(schema, std::move(json));
   if (*path == "-") return write_standard_output(to_text(document));
   write_result(*path, to_text(document));
   write_standard_output(words(answer));

@@ -9,7 +9,7 @@
 #include <noli/errors.h>
 #include "app/commands.h"
 #include "app/output.h"
-#include "app/schema_texts.h"
+#include "report/documents.h"
 
 namespace noli::app {
 namespace {
@@ -24,7 +24,7 @@ constexpr const char* schema_footer =
 
 std::string names() {
   std::string lines;
-  for (const SchemaText& schema : schema_texts()) lines += std::string(schema.name) + '\n';
+  for (const report::SchemaText& schema : report::schema_texts()) lines += std::string(schema.name) + '\n';
   return lines;
 }
 
@@ -36,8 +36,8 @@ ExitCode run(const std::optional<std::string>& name) {
   constexpr std::string_view prefix = "noli-";  // as results name their schema
   std::string_view wanted = *name;
   if (wanted.starts_with(prefix)) wanted.remove_prefix(prefix.size());
-  const auto found = std::ranges::find(schema_texts(), wanted, &SchemaText::name);
-  if (found == schema_texts().end()) {
+  const auto found = std::ranges::find(report::schema_texts(), wanted, &report::SchemaText::name);
+  if (found == report::schema_texts().end()) {
     throw UsageError(fmt::format("there is no schema {}; `noli schema` lists the names", on_one_line(*name)));
   }
   write_standard_output(std::string(found->text));

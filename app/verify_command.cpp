@@ -110,14 +110,6 @@ std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
   return files;
 }
 
-/// Before anything else is said about a single one.
-void require_there(const std::vector<std::filesystem::path>& frames) {
-  std::error_code error;
-  if (frames.size() != 1 || frames[0] == "-" || std::filesystem::exists(std::filesystem::status(frames[0], error)))
-    return;
-  throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
-}
-
 /// What goes with --reproduce, and what does not.
 void prepare_to_reproduce(VerifyRequest& request) {
   if (request.reproduce && !request.run) {

@@ -36,8 +36,10 @@ double number_at(const char* place) {
 PositionArray::PositionArray(py::array array)
     : array_(std::move(array)), data_(static_cast<const char*>(array_.data())) {
   const auto dimensions = array_.ndim();
-  single_ = array_.dtype().is(py::dtype::of<float>());
-  if ((!single_ && !array_.dtype().is(py::dtype::of<double>())) || dimensions < 2 || dimensions > 3) {
+  const auto bytes = array_.itemsize();
+  single_ = bytes == sizeof(float);
+  const bool real = array_.dtype().kind() == 'f' && (single_ || bytes == sizeof(double));
+  if (!real || dimensions < 2 || dimensions > 3) {
     throw std::logic_error("an array of positions of another type or shape");
   }
   if (dimensions == 3) {

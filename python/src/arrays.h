@@ -16,7 +16,7 @@
 
 namespace noli::python {
 
-/// Positions in an array (..., vertices, 2 or 3) of float32 or float64, with any strides.
+/// Positions in an array (..., vertices, 2 or 3) of float32 or float64 in the machine's byte order, with any strides.
 class PositionArray {
  public:
   /// Keeps the array. Precondition: its type and shape.

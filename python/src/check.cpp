@@ -16,6 +16,7 @@
 #include "python/src/frames.h"
 #include "python/src/options.h"
 #include "report/check_report.h"
+#include "report/documents.h"
 #include "trajectory/formats/frame_names.h"
 
 namespace noli::python {
@@ -42,7 +43,7 @@ class Check {
     });
   }
 
-  std::string json() const { return to_text(report::check_json(checked_)); }
+  std::string json() const { return to_text(report::document("check", report::check_json(checked_))); }
   std::string text() const {
     report::Answer answer = report::check_answer(checked_);
     answer.next.clear();  // is about options of the command

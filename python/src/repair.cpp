@@ -14,6 +14,7 @@
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
+#include "report/documents.h"
 #include "report/repair_report.h"
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/frame_names.h"
@@ -74,7 +75,7 @@ class Repair {
     request_.progress = {};
   }
 
-  std::string json() const { return to_text(report::repair_json(request_, outcome_)); }
+  std::string json() const { return to_text(report::document("repair", report::repair_json(request_, outcome_))); }
   std::string text() const {
     report::Answer answer = report::repair_answer(request_, outcome_);
     answer.next.clear();  // is about options of the command

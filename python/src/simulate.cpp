@@ -16,6 +16,7 @@
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/options.h"
+#include "report/documents.h"
 #include "report/simulate_report.h"
 
 namespace noli::python {
@@ -96,7 +97,10 @@ class Simulation {
   }
 
   /// Once it has ended.
-  std::string json() const { return outcome_ ? to_text(report::simulate_json(request_, *outcome_)) : "null"; }
+  std::string json() const {
+    if (!outcome_) return "null";
+    return to_text(report::document("simulate", report::simulate_json(request_, *outcome_)));
+  }
   std::string text() const {
     if (!outcome_) return "";
     report::Answer answer = report::simulate_answer(report::simulate_json(request_, *outcome_), request_, *outcome_);

@@ -22,6 +22,7 @@
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
+#include "report/documents.h"
 #include "report/page/report_page.h"
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
@@ -84,7 +85,7 @@ class Outcome {
   }
 
   const VerifyOutcome& outcome() const { return outcome_; }
-  std::string json() const { return to_text(report::verify_json(request_, outcome_)); }
+  std::string json() const { return to_text(report::document("verify", report::verify_json(request_, outcome_))); }
   std::string claim() const { return to_text(claim_file(outcome_.claim)); }
   std::string text(bool details) const {
     report::Answer answer = report::verify_answer(request_, outcome_, {.result = "", .details = details});
@@ -149,6 +150,7 @@ class Outcome {
  private:
   void name_files(std::vector<std::filesystem::path> names) {
     request_.frames = named_frames(std::move(names));
+    require_there(request_.frames);
     request_.run = request_.frames.size() == 1 && std::filesystem::is_directory(request_.frames[0]);
     if (!request_.run) request_.put_in_order();
   }

@@ -145,4 +145,11 @@ Paths files_named(const Paths& given) {
   return files;
 }
 
+void require_there(const std::vector<std::filesystem::path>& frames) {
+  std::error_code error;
+  if (frames.size() != 1 || frames[0] == "-" || std::filesystem::exists(std::filesystem::status(frames[0], error)))
+    return;
+  throw InputError(frames[0].string(), "", "cannot be opened: there is no such file or folder");
+}
+
 }  // namespace noli

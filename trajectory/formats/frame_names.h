@@ -21,6 +21,10 @@ namespace noli {
 /// InputError: nothing matches, a folder has frames of several formats, a list cannot be read or names nothing.
 std::vector<std::filesystem::path> named_frames(std::vector<std::filesystem::path> given);
 
+/// Throws InputError if a single one is named, and there is no such file or folder: else it would be said first that one
+/// frame has no motion.
+void require_there(const std::vector<std::filesystem::path>& frames);
+
 /// The files that are read to find out which frames are named: lists, without their @, and series.
 std::vector<std::filesystem::path> files_named(const std::vector<std::filesystem::path>& given);
 
