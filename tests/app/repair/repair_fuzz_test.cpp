@@ -81,11 +81,12 @@ class RepairFuzz : public testing::Test {
     EXPECT_TRUE(end != "blocked" || (fixed_truth.contact && json["obstacle"]["step"] == fixed_truth.step + 1))
         << number << ": " << json["obstacle"].dump();
     EXPECT_EQ(end == "start_touches", json["obstacle"].is_object() && json["obstacle"]["step"] == 0) << number;
-    if (end == "done") {
-      EXPECT_EQ(json["verdict"], "proved") << number;
-      EXPECT_EQ(run_noli({"verify", "--order", "natural", out.string()}).exit_code, 0) << number;
-    }
     if (truth.initial) repair_what_is_new(words, out, number);
+    if (end != "done") return end;
+    // The time limit may come while the new frames are verified: the answer is then as open as the command says.
+    if (json["verdict"] == "undecided") return "undecided";
+    EXPECT_EQ(json["verdict"], "proved") << number;
+    EXPECT_EQ(run_noli({"verify", "--order", "natural", out.string()}).exit_code, 0) << number;
     return end;
   }
 
@@ -96,7 +97,7 @@ class RepairFuzz : public testing::Test {
     const nlohmann::json json = nlohmann::json::parse(process.out, nullptr, false);
     ASSERT_FALSE(json.is_discarded()) << number << ": " << process.exit_code << process.err;
     EXPECT_GT(json["baseline"].get<std::uint64_t>() + (json["end"] == "start_touches" ? 1 : 0), 0u) << number;
-    if (json["end"] != "done") return;
+    if (json["end"] != "done" || json["verdict"] == "undecided") return;
     EXPECT_EQ(json["verdict"], "proved") << number;
     EXPECT_EQ(run_noli({"verify", "--only-new", "--order", "natural", out.string()}).exit_code, 0) << number;
   }
