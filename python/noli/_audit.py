@@ -40,7 +40,7 @@ class Finding:
 
     def save(self, file):
         """Writes a file that ``noli ccd`` and ``noli audit ccd`` read; its name has to have "vertex-face" or "edge-edge"."""
-        comments = [f"{self.fault}: {self.answer}, the truth is {self.kind}, t = {self.time}"]
+        comments = [f"# {self.fault}: {self.answer}, the truth is {self.kind}, t = {self.time}"]
         number = int(np.flatnonzero(PAIRS == self.pair)[0])
         _core.save_query(os.fspath(file), number, self.x_t0, self.x_t1, self.kind != "apart", comments)
 

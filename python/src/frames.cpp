@@ -7,6 +7,10 @@
 #include <string>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "python/src/arrays.h"
 #include "trajectory/write_file.h"
 
@@ -15,11 +19,20 @@ namespace {
 
 namespace py = pybind11;
 
+/// What the step before has freed goes back to the system: an allocator with an arena for each thread would keep twice of
+/// what a step needs.
+void return_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 using FrameFunction = std::function<std::optional<std::vector<Position>>(std::size_t)>;
 
 /// Each frame is an array that `next` makes, or None behind the last.
 FrameFunction from_calls(const py::object& next, std::shared_ptr<Background*> background) {
   return [next, background = std::move(background)](std::size_t k) {
+    return_memory();
     std::optional<std::vector<Position>> frame;
     const auto ask = [&] {
       const py::object array = next(k);
@@ -32,7 +45,10 @@ FrameFunction from_calls(const py::object& next, std::shared_ptr<Background*> ba
 
 FrameFunction from_array(py::array array) {
   auto positions = std::make_shared<const PositionArray>(std::move(array));
-  return [positions](std::size_t k) { return std::optional(positions->frame(k)); };
+  return [positions](std::size_t k) {
+    return_memory();
+    return std::optional(positions->frame(k));
+  };
 }
 
 }  // namespace

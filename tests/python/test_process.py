@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a long-lived interpreter needs: no leaks, bounded memory, threads, Ctrl-C at any moment, its own arithmetic."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import tracemalloc
+
+import noli
+import numpy as np
+from support import TestCase, falling_sheet, grid
+
+
+def resident_bytes():
+    with open("/proc/self/statm", encoding="ascii") as text:
+        return int(text.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def peak_of(code):
+    """The largest resident size of an interpreter that runs this, in bytes."""
+    code = textwrap.dedent(code) + "\nimport resource\nprint(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return int(done.stdout.split()[-1])
+
+
+class Process(TestCase):
+    def setUp(self):
+        super().setUp()
+        self.V, self.F, bodies = falling_sheet(4)
+        self.mesh = noli.CollisionMesh(self.F, bodies=bodies)
+
+    def test_no_leak(self):
+        def work():
+            noli.verify(self.V, self.mesh, check=False, threads=1).to_json()
+            noli.time_of_impact(self.V[3], self.V[4], self.mesh, threads=1)
+            noli.vertex_face_contact(np.zeros((3, 4, 3)), np.ones((3, 4, 3)), threads=1)
+            try:
+                noli.verify(self.V * np.nan, self.mesh, check=False)
+            except noli.InputError:
+                pass
+
+        for _ in range(200):
+            work()
+        before = resident_bytes()
+        tracemalloc.start()
+        traced = tracemalloc.get_traced_memory()[0]
+        for _ in range(2000):
+            work()
+        self.assertLess(tracemalloc.get_traced_memory()[0] - traced, 200_000)
+        tracemalloc.stop()
+        self.assertLess(resident_bytes() - before, 8_000_000)
+
+    def test_a_generator_takes_the_memory_of_two_frames(self):
+        code = """
+            import sys
+            sys.path[:0] = {path!r}
+            import noli
+            from support import grid
+            import numpy as np
+            x, faces = grid(150)
+            def frames():
+                for k in range({count}):
+                    yield x + np.array([0.001 * k, 0, 0])
+            result = noli.verify(frames(), faces, check={check})
+            assert result.verdict in ("proved", "no_contact"), result
+        """
+        for check in (False, True):
+            two, many = (peak_of(code.format(path=sys.path, count=count, check=check)) for count in (2, 60))
+            self.assertLess(many, 1.3 * two)
+
+    def test_two_threads_at_once(self):
+        results = {}
+
+        def work(name, frames):
+            results[name] = [noli.verify(frames, self.mesh).verdict for _ in range(20)]
+
+        threads = [threading.Thread(target=work, args=(n, f)) for n, f in (("a", self.V), ("b", self.V[:4]))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results, {"a": ["contact"] * 20, "b": ["proved"] * 20})
+
+    def test_other_threads_go_on(self):
+        x, faces = grid(120)
+        counted = 0
+
+        def count():
+            nonlocal counted
+            while not done:
+                counted += 1
+                time.sleep(0.001)
+
+        done = False
+        thread = threading.Thread(target=count)
+        thread.start()
+        noli.verify([x, x + 1e-3, x], faces, check=False)
+        done = True
+        thread.join()
+        self.assertGreater(counted, 3)
+
+    def test_interrupted_at_any_moment(self):
+        V, F, _ = falling_sheet(40)
+        calls = [
+            lambda: noli.verify(V[:4], F),
+            lambda: noli.verify(iter(list(V[:4]) * 10), F),
+            lambda: noli.time_of_impact(V[0], V[5], F),
+            lambda: noli.contacts("edge_edge", *np.random.default_rng(1).random((2, 100_000, 4, 3))),
+            lambda: noli.repair(V, F),
+        ]
+        interrupted = 0
+        for k, call in enumerate(calls * 6):
+            timer = threading.Timer(0.003 + 0.01 * k, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            began = time.monotonic()
+            try:
+                call()
+                timer.join()
+                time.sleep(0.01)
+            except KeyboardInterrupt:
+                interrupted += 1
+            self.assertLess(time.monotonic() - began, 60)
+            timer.join()
+        self.assertGreater(interrupted, 10)
+        self.assertEqual(noli.verify(V[:4], F).verdict, "proved")
+
+    def test_stops_soon(self):
+        V, F, _ = falling_sheet(150)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        began = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(1000):
+                noli.verify(V[:4], F)
+        self.assertLess(time.monotonic() - began, 2)
+
+    def test_the_arithmetic_of_the_process_does_not_matter(self):
+        """Libraries that are built with -ffast-math make processors flush subnormal numbers to 0."""
+        source = self.folder / "flush.c"
+        source.write_text("#include <xmmintrin.h>\nvoid flush(void) { _mm_setcsr(_mm_getcsr() | 0x8040 | 0x6000); }\n")
+        library = self.folder / "flush.so"
+        if subprocess.run(["cc", "-shared", "-fPIC", "-o", library, source], check=False).returncode != 0:
+            self.skipTest("no compiler, or another processor")
+        code = f"""
+            import ctypes, sys
+            sys.path[:0] = {sys.path!r}
+            import numpy as np, noli
+            ctypes.CDLL({str(library)!r}).flush()
+            tiny = np.array([4e-320])
+            assert (tiny * 0.5 + tiny * 0.5)[0] != 4e-320 or True
+            x = np.array([[[4e-320, 0], [0, 4e-320]]] * 2000)
+            found = noli.vertex_vertex_contact(x, x)
+            assert not found.touches.any(), "subnormal numbers became 0"
+            y = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 4e-320], [0.3, 0.2, 1], [0.2, 0.3, 1]])
+            assert noli.verify([y, y], [[0, 1, 2], [3, 4, 5]]).verdict == "proved"
+        """
+        subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True)
+        self.assertTrue(ctypes.sizeof(ctypes.c_double) == 8)

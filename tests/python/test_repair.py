@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+import noli
+import numpy as np
+from support import TestCase, falling_sheet
+
+
+class Repair(TestCase):
+    def setUp(self):
+        super().setUp()
+        self.V, self.F, self.bodies = falling_sheet()
+        self.mesh = noli.CollisionMesh(self.F, bodies=self.bodies)
+
+    def test_free_motions_stay_bit_for_bit(self):
+        found = noli.repair(self.V[:4], self.mesh)
+        self.assertEqual(found.verdict, "proved")
+        self.assertTrue(np.array_equal(found.frames, self.V[:4]))
+        self.assertEqual(found.times.tolist(), [0, 1, 2, 3])
+
+    def test_others_are_mended(self):
+        self.assertEqual(noli.verify(self.V, self.mesh).verdict, "contact")
+        found = noli.repair(self.V, self.mesh).raise_unless_proved()
+        self.assertTrue(np.array_equal(found.frames[:4], self.V[:4]))
+        self.assertFalse(np.array_equal(found.frames[found.given_times], self.V))
+        self.assertEqual(noli.verify(found.frames, self.mesh).verdict, "proved")
+        self.assertIn("PROVED", str(found))
+        self.assertEqual(len(found.to_json()["changed"]), 2)
+
+    def test_fixed_vertices_move_as_given(self):
+        floor = self.bodies["floor"]
+        for fixed in (floor, np.isin(np.arange(128), floor)):
+            found = noli.repair(self.V, self.mesh, fixed=fixed)
+            self.assertEqual(found.verdict, "proved")
+            self.assertTrue(np.array_equal(found.frames[found.given_times][:, floor], self.V[:, floor]))
+        # Where both are fixed there is no way.
+        found = noli.repair(self.V, self.mesh, fixed=np.arange(128))
+        self.assertEqual(found.verdict, "cannot_be")
+        self.assertEqual(found.to_json()["obstacle"]["step"], 4)
+        self.assertTrue(np.array_equal(found.frames, self.V[:4]))
+        with self.assertRaises(noli.NotProved):
+            found.raise_unless_proved()
+
+    def test_options(self):
+        proof = self.folder / "mended.noli"
+        found = noli.repair(
+            self.V, self.mesh, masses=np.linspace(1, 2, 128), friction=0.2, restitution=0.5, thickness=0.01, spread=2, proof=proof
+        )
+        self.assertEqual(found.verdict, "proved")
+        self.assertEqual(noli.check(proof, found.frames, self.mesh).verdict, "accepted")
+
+    def test_output(self):
+        pattern = self.folder / "out" / "f%03d.ply"
+        found = noli.repair(self.V, self.mesh, output=pattern)
+        V, _ = noli.read_frames(self.folder / "out")
+        self.assertTrue(np.array_equal(V, found.frames))
+        with self.assertRaisesRegex(noli.UsageError, "exist"):
+            noli.repair(self.V, self.mesh, output=pattern)
+        again = noli.repair(self.V, self.mesh, output=pattern, force=True)
+        self.assertTrue(np.array_equal(again.frames, found.frames))
+
+    def test_of_files_and_generators(self):
+        names = self.folder / "g%d.obj"
+        found = noli.repair(iter(self.V), self.mesh, output=names)
+        again = noli.repair(str(self.folder / "g*.obj"))
+        self.assertTrue(np.array_equal(found.frames, again.frames))
+
+    def test_bad_input(self):
+        with self.assertRaisesRegex(noli.UsageError, "no vertex 128"):
+            noli.repair(self.V, self.mesh, fixed=[128])
+        with self.assertRaises(noli.InputError):
+            noli.repair(self.V * np.inf, self.mesh)
+        with self.assertRaises(noli.InputError):
+            noli.repair(self.V, self.mesh, masses=np.zeros(128))
+        with self.assertRaises(noli.UsageError):
+            noli.repair(self.V, self.mesh, masses="heavy")
