@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What is installed, in three components, each of which is a Debian package (packaging/): `runtime`, the programs and what they read;
-# `dev`, libraries, public headers, and what find_package(noli) reads; `doc`.
+# What is installed, in components, each of which is a Debian package (packaging/): `runtime`, the programs and what they read; `dev`,
+# libraries, public headers, and what find_package(noli) reads; `python`; `doc`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -17,6 +17,12 @@ if(NOLI_WITH_AUDIT)
 endif()
 if(NOLI_WITH_HDF5)
   install(TARGETS noli_series RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+endif()
+if(NOLI_WITH_PYTHON)
+  set(python_dir lib/python3/dist-packages/noli)
+  install(TARGETS noli_python LIBRARY DESTINATION ${python_dir} COMPONENT python)
+  install(DIRECTORY python/noli/ DESTINATION ${python_dir} COMPONENT python FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed"
+          PATTERN "__pycache__" EXCLUDE)
 endif()
 install(DIRECTORY include/noli DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY scenes schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/noli COMPONENT runtime)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Arrays as the module in C++ takes them. No number is rounded on the way: what would have to be is an error."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ._errors import InputError

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Somebody else's continuous collision detection, as a function of arrays, against the exact answers."""
 
+from __future__ import annotations
+
 import os
 import time as clock
+from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._errors import InputError, UsageError
 from ._queries import _points, contacts
+from ._types import CcdFunction, Floats, Path
 from ._words import PAIRS, no_truth
 
 FAULTS = ("false_negative", "late", "bad_time", "no_time", "false_positive", "early")
@@ -35,10 +40,20 @@ class Finding:
         Of a caller's own query.
     """
 
-    def __init__(self, **members):
+    fault: str
+    pair: str
+    x_t0: Floats
+    x_t1: Floats
+    kind: str
+    time: float
+    answer: float
+    generator: str
+    index: int
+
+    def __init__(self, **members: Any) -> None:
         self.__dict__.update(members)
 
-    def save(self, file):
+    def save(self, file: Path) -> None:
         """Writes a file that ``noli ccd`` and ``noli audit ccd`` read; its name has to have "vertex-face" or "edge-edge"."""
         comments = [f"# {self.fault}: {self.answer}, the truth is {self.kind}, t = {self.time}"]
         number = int(np.flatnonzero(PAIRS == self.pair)[0])
@@ -64,20 +79,21 @@ class Audit:
         At most ``max_findings``, the simplest first.
     """
 
-    def __init__(self, exact, max_findings):
+    def __init__(self, exact: bool, max_findings: int) -> None:
         self.exact, self._most = exact, max_findings
         self.asked = self.contacts = 0
-        self.faults = dict.fromkeys(FAULTS, 0)
-        self.findings = []
+        self.faults: Dict[str, int] = dict.fromkeys(FAULTS, 0)
+        self.findings: List[Finding] = []
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def counts(self, fault):
+    def counts(self, fault: str) -> bool:
         """Whether this fault is a finding."""
         return self.exact or fault not in ("false_positive", "early")
 
     @property
-    def verdict(self):
+    def verdict(self) -> str:
         return "finding" if any(n for fault, n in self.faults.items() if self.counts(fault)) else "no_finding"
 
     def __repr__(self):
@@ -85,7 +101,13 @@ class Audit:
         return f"<noli.Audit: {self.verdict}, {self.asked} queries, {self.contacts} contacts{': ' + found if found else ''}>"
 
 
-def audit_ccd(function, queries, *, exact=False, max_findings=20):
+def audit_ccd(
+    function: CcdFunction,
+    queries: Mapping[str, Tuple[ArrayLike, ArrayLike]],
+    *,
+    exact: bool = False,
+    max_findings: int = 20,
+) -> Audit:
     """Asks a function what Noli knows exactly.
 
     Parameters
@@ -117,7 +139,17 @@ def audit_ccd(function, queries, *, exact=False, max_findings=20):
     return audit
 
 
-def fuzz_queries(function, *, seconds=None, count=None, seed=1, exact=False, pairs=ASKED, shrink=True, max_findings=20):
+def fuzz_queries(
+    function: CcdFunction,
+    *,
+    seconds: Optional[float] = None,
+    count: Optional[int] = None,
+    seed: int = 1,
+    exact: bool = False,
+    pairs: Sequence[str] = ASKED,
+    shrink: bool = True,
+    max_findings: int = 20,
+) -> Audit:
     """Asks a function adversarial queries until it has been asked ``count``, or for so many seconds.
 
     Findings are made simpler while the function still gets them wrong (``shrink``). The queries depend on ``seed``

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Does a proof hold?"""
 
+from __future__ import annotations
+
 import json
 import os
 import tempfile
+from typing import NoReturn, Optional, Sequence
 
 from . import _core
 from ._errors import InputError, NotProved, UsageError
 from ._frames import file_names, given_frames
+from ._types import Claim, Frames, Json, Mesh, Names, Path
 from ._words import no_truth
 
 
@@ -26,27 +30,28 @@ class Checked:
         What makes that less than everything.
     """
 
-    def __init__(self, check):
+    def __init__(self, check: _core.Check) -> None:
         self._check = check
-        self._json = json.loads(check.json())
+        self._json: Json = json.loads(check.json())
+        self.verdict: str = self._json["verdict"]
+        self.words: str = self._json["words"]
+        self.claim: Optional[Json] = self._json["claim"]
+        self.weaker: Names = self._json["weaker"]
 
-    __bool__ = no_truth
-    verdict = property(lambda self: self._json["verdict"])
-    words = property(lambda self: self._json["words"])
-    claim = property(lambda self: self._json["claim"])
-    weaker = property(lambda self: self._json["weaker"])
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def to_json(self):
+    def to_json(self) -> Json:
         """A dict, as ``noli check --json`` writes it."""
         return self._json
 
-    def raise_unless_accepted(self):
+    def raise_unless_accepted(self) -> Checked:
         """Returns this if the proof was accepted. Raises NotProved."""
         if self.verdict != "accepted":
             raise NotProved(self.words.splitlines()[0] if self.words else self.verdict, self)
         return self
 
-    def text(self):
+    def text(self) -> str:
         """What ``noli check`` prints."""
         return self._check.text()
 
@@ -57,7 +62,15 @@ class Checked:
         return f"<noli.Checked: {self.text().splitlines()[-1]}>"
 
 
-def check(proof, frames=None, mesh=None, *, require=(), claim=None, verified=False):
+def check(
+    proof: Path,
+    frames: Optional[Frames] = None,
+    mesh: Optional[Mesh] = None,
+    *,
+    require: Sequence[str] = (),
+    claim: Claim = None,
+    verified: bool = False,
+) -> Checked:
     """Has a separate program check a proof about these frames, or about a run.
 
     Parameters

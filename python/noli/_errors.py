@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The exceptions of Noli. A verdict is a result, never one of these, unless it is asked for."""
 
+from __future__ import annotations
+
+from typing import Any, Optional
+
 
 class NoliError(Exception):
     """Base of all exceptions of this package."""
@@ -21,7 +25,7 @@ class Stopped(NoliError):
 class NotProved(NoliError):
     """What ``raise_unless_proved()`` raises. ``result`` is the result that is no proof."""
 
-    def __init__(self, text, result):
+    def __init__(self, text: str, result: Any) -> None:
         super().__init__(text)
         self.result = result
 
@@ -33,7 +37,7 @@ class Contact(NotProved):
     ``pairs`` are the listed contacts, as ``Result.contacts``.
     """
 
-    def __init__(self, text, result, time, pairs):
+    def __init__(self, text: str, result: Any, time: Optional[float], pairs: Any) -> None:
         super().__init__(text, result)
         self.time = time
         self.pairs = pairs

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Frames, whatever holds them: names of files, one array, a list of arrays, a generator."""
 
+from __future__ import annotations
+
 import os
 
 import numpy as np

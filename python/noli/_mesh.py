@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What moves: cells by the numbers of their vertices, the bodies they make up, and what is not compared."""
 
+from __future__ import annotations
+
 import json
+from typing import Any, Iterable, Mapping, Optional, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import indices
 from ._errors import InputError, UsageError
@@ -37,7 +41,16 @@ class CollisionMesh:
         ``ignore`` names no body.
     """
 
-    def __init__(self, faces=None, *, edges=None, points=None, vertex_count=None, bodies=None, ignore=None):
+    def __init__(
+        self,
+        faces: Optional[ArrayLike] = None,
+        *,
+        edges: Optional[ArrayLike] = None,
+        points: Optional[ArrayLike] = None,
+        vertex_count: Optional[int] = None,
+        bodies: Optional[Mapping[str, ArrayLike]] = None,
+        ignore: Optional[Iterable[Sequence[str]]] = None,
+    ) -> None:
         self.faces = indices(faces, 3, "faces")
         self.edges = indices(edges, 2, "edges")
         self.points = indices(points, 1, "points")
@@ -51,7 +64,7 @@ class CollisionMesh:
             self._require_vertices(vertex_count)
 
     @property
-    def cell_count(self):
+    def cell_count(self) -> int:
         """Number of faces, edges and points."""
         return len(self.faces) + len(self.edges) + len(self.points)
 
@@ -105,7 +118,7 @@ class CollisionMesh:
             groups["groups"] = {name: _ranges(vertices) for name, vertices in self.bodies.items()}
         return json.dumps(groups)
 
-    def body_of_vertex(self, vertex):
+    def body_of_vertex(self, vertex: int) -> Optional[str]:
         """The name of the body that has a vertex, or None."""
         return next((name for name, vertices in self.bodies.items() if vertex in vertices), None)
 
@@ -120,7 +133,7 @@ def _ranges(vertices):
     return [[int(ordered[a]), int(ordered[b])] for a, b in zip(starts, ends)]
 
 
-def as_mesh(mesh):
+def as_mesh(mesh: Any) -> CollisionMesh:
     """A CollisionMesh as it is, else one of these faces."""
     if mesh is None:
         raise UsageError("positions in arrays need a mesh: CollisionMesh(faces), or the faces")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a result shows itself in a notebook: its verdict, a table of the steps that touch, and a page to turn."""
 
+from __future__ import annotations
+
 import base64
 import html
 import os

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the programs are that this package starts: the checkers of proofs, and noli_series, which reads HDF5."""
 
+from __future__ import annotations
+
 import os
 import pathlib
 import shutil

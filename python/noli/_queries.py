@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Single queries: did two features meet while each of their points moved along a straight line?"""
 
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import numbers
@@ -25,20 +30,21 @@ class Contacts:
         The largest double not above the first time; NaN where they stay apart.
     """
 
-    def __init__(self, touches, kind, time):
+    def __init__(self, touches: Any, kind: Any, time: Any) -> None:
         self.touches, self.time = touches, time
         self.kind = None if kind is None else KINDS[kind]
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.touches)
 
     def __repr__(self):
         return f"<noli.Contacts: {np.count_nonzero(self.touches)} of {len(self)} queries in contact>"
 
 
-def contacts(pair, x_t0, x_t1, *, times=True, threads=0):
+def contacts(pair: str, x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:
     """Decides queries exactly, whatever their numbers.
 
     Parameters
@@ -62,28 +68,28 @@ def contacts(pair, x_t0, x_t1, *, times=True, threads=0):
     InputError
         Another shape or type, numbers that are not finite.
     """
-    x_t0, x_t1 = _points(pair, x_t0, "x_t0"), _points(pair, x_t1, "x_t1")
-    if x_t0.shape != x_t1.shape:
-        raise InputError(f"x_t1: has the shape {x_t1.shape}; expected that of x_t0, {x_t0.shape}")
-    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), x_t0, x_t1, bool(times), int(threads)))
+    begin, end = _points(pair, x_t0, "x_t0"), _points(pair, x_t1, "x_t1")
+    if begin.shape != end.shape:
+        raise InputError(f"x_t1: has the shape {end.shape}; expected that of x_t0, {begin.shape}")
+    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), begin, end, bool(times), int(threads)))
 
 
-def vertex_face_contact(x_t0, x_t1, *, times=True, threads=0):
+def vertex_face_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:
     """``contacts("vertex_face", ...)``: (m, 4, 3) each, the vertex first."""
     return contacts("vertex_face", x_t0, x_t1, times=times, threads=threads)
 
 
-def edge_edge_contact(x_t0, x_t1, *, times=True, threads=0):
+def edge_edge_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:
     """``contacts("edge_edge", ...)``: (m, 4, 3) each, the points of one edge, then of the other."""
     return contacts("edge_edge", x_t0, x_t1, times=times, threads=threads)
 
 
-def vertex_edge_contact(x_t0, x_t1, *, times=True, threads=0):
+def vertex_edge_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:
     """``contacts("vertex_edge", ...)``: (m, 3, 3 or 2) each, the vertex first."""
     return contacts("vertex_edge", x_t0, x_t1, times=times, threads=threads)
 
 
-def vertex_vertex_contact(x_t0, x_t1, *, times=True, threads=0):
+def vertex_vertex_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:
     """``contacts("vertex_vertex", ...)``: (m, 2, 3 or 2) each."""
     return contacts("vertex_vertex", x_t0, x_t1, times=times, threads=threads)
 

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """A motion near a given one in which nothing touches."""
 
+from __future__ import annotations
+
 import csv
 import json
 import os
 import tempfile
+from typing import NoReturn, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import indices, numbers
 from ._errors import InputError, NotProved, UsageError
 from ._frames import file_names, given_frames
 from ._mesh import CollisionMesh
+from ._types import Floats, Frames, Integers, Json, Mesh, Path, Progress
 from ._words import no_truth, progress_of
 
 
@@ -30,29 +35,30 @@ class Repaired:
         In steps: the given frame k has the time k, as far as the repair got.
     """
 
-    def __init__(self, repair, frames, times):
+    def __init__(self, repair: _core.Repair, frames: Floats, times: Floats) -> None:
         self._repair, self.frames, self.times = repair, frames, times
-        self._json = json.loads(repair.json())
+        self._json: Json = json.loads(repair.json())
+        self.verdict: str = self._json["verdict"]
 
-    __bool__ = no_truth
-    verdict = property(lambda self: self._json["verdict"])
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
     @property
-    def given_times(self):
+    def given_times(self) -> Integers:
         """Numbers of the rows of ``frames`` that are at the times of given frames."""
         return np.flatnonzero(self.times == np.floor(self.times))
 
-    def to_json(self):
+    def to_json(self) -> Json:
         """A dict, as ``noli repair --json`` writes it: displacements, steps that were changed, the obstacle."""
         return self._json
 
-    def raise_unless_proved(self):
+    def raise_unless_proved(self) -> Repaired:
         """Returns this if its verdict is "proved". Raises NotProved."""
         if self.verdict != "proved":
             raise NotProved(self.text().splitlines()[-1], self)
         return self
 
-    def text(self):
+    def text(self) -> str:
         """What ``noli repair`` prints."""
         return self._repair.text()
 
@@ -64,27 +70,27 @@ class Repaired:
 
 
 def repair(
-    frames,
-    mesh=None,
+    frames: Frames,
+    mesh: Optional[Mesh] = None,
     *,
-    output=None,
-    fixed=None,
-    thickness=None,
-    masses=None,
-    restitution=0.1,
-    friction=0.0,
-    spread=0,
-    only_new=False,
-    points=False,
-    dimension=None,
-    proof=None,
-    check=True,
-    threads=0,
-    time_limit=None,
-    force=False,
-    resume=False,
-    progress=None,
-):
+    output: Optional[Path] = None,
+    fixed: Optional[ArrayLike] = None,
+    thickness: Optional[float] = None,
+    masses: Union[str, ArrayLike, None] = None,
+    restitution: float = 0.1,
+    friction: float = 0.0,
+    spread: int = 0,
+    only_new: bool = False,
+    points: bool = False,
+    dimension: Optional[int] = None,
+    proof: Optional[Path] = None,
+    check: bool = True,
+    threads: int = 0,
+    time_limit: Optional[float] = None,
+    force: bool = False,
+    resume: bool = False,
+    progress: Progress = None,
+) -> Repaired:
     """Turns steps that touch into steps that do not, by contact alone; what touches nothing stays bit for bit.
 
     Parameters
@@ -114,7 +120,7 @@ def repair(
     ------
     InputError, UsageError, OSError
     """
-    options = {"restitution": float(restitution), "friction": float(friction), "spread": int(spread)}
+    options: Json = {"restitution": float(restitution), "friction": float(friction), "spread": int(spread)}
     options.update(only_new=bool(only_new), points=bool(points), check=bool(check), threads=int(threads))
     options.update(force=bool(force), resume=bool(resume))
     if thickness is not None:
@@ -141,7 +147,7 @@ def repair(
         return Repaired(done, *_read(json.loads(done.json())))
 
 
-def read_frames(frames):
+def read_frames(frames: Union[Path, Sequence[Path]]) -> Tuple[Floats, CollisionMesh]:
     """Reads frames in files, as ``noli.verify`` names them.
 
     Returns

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes in motion, certified window by window."""
 
+from __future__ import annotations
+
 import json
 import os
 import tempfile
+from typing import Any, List, NoReturn, Optional, Union
 
 from . import _core
 from ._errors import NotProved
+from ._types import Floats, Json, Path
 from ._words import no_truth
 
 
@@ -28,7 +32,16 @@ class Window:
         [N s], [N m s]
     """
 
-    def __init__(self, found):
+    index: int
+    begin: float
+    end: float
+    positions: Floats
+    velocities: Floats
+    energies: Json
+    momentum: List[float]
+    angular_momentum: List[float]
+
+    def __init__(self, found: Json) -> None:
         self.__dict__.update(found)
 
     def __repr__(self):
@@ -42,22 +55,25 @@ class Simulation:
     exception in the loop end it at the last committed window; ``resume=True`` goes on from there.
     """
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def __init__(self, scene, run, options):
+    def __init__(self, scene: Union[Path, Json], run: Path, options: Json) -> None:
         self.run = os.fspath(run)
-        self._scene_file = None
+        self._scene_file: Any = None
         if isinstance(scene, dict):
             self._scene_file = tempfile.NamedTemporaryFile("w", suffix=".json")
             json.dump(_with_whole_paths(scene), self._scene_file)
             self._scene_file.flush()
-            scene = self._scene_file.name
-        self._simulation = _core.Simulation(os.fspath(scene), self.run, options)
+            file = self._scene_file.name
+        else:
+            file = os.fspath(scene)
+        self._simulation = _core.Simulation(file, self.run, options)
 
-    def __iter__(self):
+    def __iter__(self) -> Simulation:
         return self
 
-    def __next__(self):
+    def __next__(self) -> Window:
         try:
             found = self._simulation.next()
         except BaseException:
@@ -68,29 +84,29 @@ class Simulation:
             raise StopIteration
         return Window(found)
 
-    def __enter__(self):
+    def __enter__(self) -> Simulation:
         return self
 
-    def __exit__(self, *exception):
+    def __exit__(self, *exception: object) -> None:
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Ends the simulation at the last committed window."""
         self._simulation.close()
         if self._scene_file is not None:
             self._scene_file.close()
 
     @property
-    def result(self):
+    def result(self) -> Optional[Json]:
         """A dict, as ``noli simulate --json`` writes it; None while it goes on, or if it failed."""
         return json.loads(self._simulation.json())
 
     @property
-    def verdict(self):
+    def verdict(self) -> Optional[str]:
         """"no_contact", "contact", "too_near", "not_finite", "unstable" or "undecided"; None while it goes on."""
         return None if self.result is None else self.result["verdict"]
 
-    def finish(self):
+    def finish(self) -> Simulation:
         """Goes through all windows that are left, and returns this. Raises NotProved unless nothing touched."""
         for _ in self:
             pass
@@ -103,19 +119,19 @@ class Simulation:
 
 
 def simulate(
-    scene,
-    run,
+    scene: Union[Path, Json],
+    run: Path,
     *,
-    short=False,
-    resume=False,
-    force=False,
-    prove=True,
-    until=None,
-    past_duration=False,
-    ignore_space=False,
-    threads=0,
-    time_limit=None,
-):
+    short: bool = False,
+    resume: bool = False,
+    force: bool = False,
+    prove: bool = True,
+    until: Optional[float] = None,
+    past_duration: bool = False,
+    ignore_space: bool = False,
+    threads: int = 0,
+    time_limit: Optional[float] = None,
+) -> Simulation:
     """Runs a scene by the method of "Asynchronous Contact Mechanics" (Harmon et al. 2009), certified window by window.
 
     Parameters
@@ -143,7 +159,7 @@ def simulate(
     InputError, UsageError, OSError
         When the first window is asked for.
     """
-    options = {"short": short, "resume": resume, "force": force, "prove": prove, "past_duration": past_duration}
+    options: Json = {"short": short, "resume": resume, "force": force, "prove": prove, "past_duration": past_duration}
     options.update(ignore_space=ignore_space, threads=int(threads))
     if until is not None:
         options["until"] = float(until)

@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """One step of a mesh, inside a solver's loop, and one moment of it."""
 
+from __future__ import annotations
+
+from typing import Any, NoReturn, Optional
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import positions
 from ._errors import Contact, InputError
 from ._mesh import as_mesh
+from ._types import Features, Floats, Integers, Mesh
 from ._verify import CONTACTS
 from ._words import KINDS, PAIRS, POINTS, no_truth
 
@@ -23,26 +29,32 @@ class Impact:
         As FirstContact has them; None where nothing touches, or cells intersect as the step begins (``time`` is 0).
     """
 
-    def __init__(self, touches, found):
+    def __init__(self, touches: bool, found: Any) -> None:
         self.touches = touches
-        self.time = found["time"] if found else 0.0 if touches else float("inf")
-        self.kind = self.pair = self.features = self.point = None
+        self.time: float = found["time"] if found else 0.0 if touches else float("inf")
+        self.kind: Optional[str] = None
+        self.pair: Optional[str] = None
+        self.features: Optional[Features] = None
+        self.point: Optional[Floats] = None
         if found:
             self.kind, self.pair = str(KINDS[found["kind"]]), str(PAIRS[found["pair"]])
             first = POINTS[self.pair][0]
             self.features = (tuple(found["vertices"][:first]), tuple(found["vertices"][first:]))
             self.point = np.array(found["point"])
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def __float__(self):
+    def __float__(self) -> float:
         return self.time
 
     def __repr__(self):
         return f"<noli.Impact: t = {self.time}, {self.kind} {self.pair}>" if self.touches else "<noli.Impact: none>"
 
 
-def time_of_impact(x_t0, x_t1, mesh, *, dimension=None, threads=0):
+def time_of_impact(
+    x_t0: ArrayLike, x_t1: ArrayLike, mesh: Mesh, *, dimension: Optional[int] = None, threads: int = 0
+) -> Impact:
     """When the mesh first touches itself as each vertex moves along a straight line from x_t0 to x_t1.
 
     Parameters
@@ -63,9 +75,9 @@ def time_of_impact(x_t0, x_t1, mesh, *, dimension=None, threads=0):
     InputError
         Another shape or type, numbers that are not finite.
     """
-    x_t0, x_t1, mesh = _step(x_t0, x_t1, mesh)
-    steps = _steps_of(mesh, x_t0, x_t1, dimension, False, threads)
-    touches = steps.step(x_t0, x_t1)
+    begin, end, cells = _step(x_t0, x_t1, mesh)
+    steps = _steps_of(cells, begin, end, dimension, False, threads)
+    touches = steps.step(begin, end)
     return Impact(touches, None if steps.intersection_count() else steps.first())
 
 
@@ -83,26 +95,35 @@ class FreeStep:
         False if x_t0 touches itself: ``step`` is then 0, and ``positions`` are x_t0.
     """
 
-    def __init__(self, step, positions, free):
+    def __init__(self, step: float, positions: Floats, free: bool) -> None:
         self.step, self.positions, self.free = step, positions, free
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
     def __repr__(self):
         return f"<noli.FreeStep: step {self.step}>" if self.free else "<noli.FreeStep: x_t0 touches itself>"
 
 
-def collision_free_step(x_t0, x_t1, mesh, *, safety=0.9, dimension=None, threads=0):
+def collision_free_step(
+    x_t0: ArrayLike,
+    x_t1: ArrayLike,
+    mesh: Mesh,
+    *,
+    safety: float = 0.9,
+    dimension: Optional[int] = None,
+    threads: int = 0,
+) -> FreeStep:
     """How far a step can go. The whole step if that touches nothing, else ``safety`` of the way to the first contact.
 
     Parameters as for ``time_of_impact``; ``safety`` is in (0, 1). Returns a FreeStep. Raises InputError.
     """
     if not 0 < safety < 1:
         raise InputError(f"safety: expected a number between 0 and 1, found {safety}")
-    x_t0, x_t1, mesh = _step(x_t0, x_t1, mesh)
-    steps = _steps_of(mesh, x_t0, x_t1, dimension, False, threads)
-    share, positions_there, free = steps.free_step(x_t0, x_t1, float(safety))
-    return FreeStep(share, positions_there[:, : x_t1.shape[1]].astype(x_t1.dtype), free)
+    begin, end, cells = _step(x_t0, x_t1, mesh)
+    steps = _steps_of(cells, begin, end, dimension, False, threads)
+    share, there, free = steps.free_step(begin, end, float(safety))
+    return FreeStep(share, there[:, : end.shape[1]].astype(end.dtype), free)
 
 
 class Intersections:
@@ -116,47 +137,52 @@ class Intersections:
         The first ``max_reports`` of them, by number of cell, ascending.
     """
 
-    def __init__(self, count, pairs):
+    def __init__(self, count: int, pairs: Integers) -> None:
         self.count, self.pairs = count, pairs
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self.count
 
     def __repr__(self):
         return f"<noli.Intersections: {self.count} pairs of cells>"
 
 
-def self_intersections(x, mesh, *, max_reports=100_000, dimension=None, threads=0):
+def self_intersections(
+    x: ArrayLike, mesh: Mesh, *, max_reports: int = 100_000, dimension: Optional[int] = None, threads: int = 0
+) -> Intersections:
     """Which cells meet as the mesh stands at x, (vertices, 3 or 2). Returns Intersections. Raises InputError."""
-    x, _, mesh = _step(x, x, mesh)
-    steps = _steps_of(mesh, x, x, dimension, True, threads, max_reports)
-    steps.step(x, x)
+    there, _, cells = _step(x, x, mesh)
+    steps = _steps_of(cells, there, there, dimension, True, threads, max_reports)
+    steps.step(there, there)
     return Intersections(steps.intersection_count(), steps.intersections())
 
 
 class LeastDistance:
     """``allowed`` holds: all features that are compared are more than this apart. ``limit`` does not."""
 
-    def __init__(self, allowed, limit):
+    def __init__(self, allowed: float, limit: float) -> None:
         self.allowed, self.limit = allowed, limit
 
-    def __float__(self):
+    def __float__(self) -> float:
         return self.allowed
 
     def __repr__(self):
         return f"<noli.LeastDistance: more than {self.allowed}, not more than {self.limit}>"
 
 
-def largest_min_distance(x, mesh, *, ring=1, dimension=None, threads=0):
+def largest_min_distance(
+    x: ArrayLike, mesh: Mesh, *, ring: int = 1, dimension: Optional[int] = None, threads: int = 0
+) -> Optional[LeastDistance]:
     """The largest ``min_distance`` that holds for the mesh as it stands at x, within a millionth.
 
     Features fewer than ``ring`` mesh edges apart may be nearer. Returns a LeastDistance, both of its numbers 0 if the
     mesh meets itself; None if there are no two features to compare. Raises InputError.
     """
-    x, _, mesh = _step(x, x, mesh)
-    found = _steps_of(mesh, x, x, dimension, False, threads).largest_distance(x, int(ring))
+    there, _, cells = _step(x, x, mesh)
+    found = _steps_of(cells, there, there, dimension, False, threads).largest_distance(there, int(ring))
     return None if found is None else LeastDistance(*found)
 
 
@@ -172,7 +198,9 @@ class Certifier:
     itself.
     """
 
-    def __init__(self, mesh, x0, *, dimension=None, threads=0, max_reports=100):
+    def __init__(
+        self, mesh: Mesh, x0: ArrayLike, *, dimension: Optional[int] = None, threads: int = 0, max_reports: int = 100
+    ) -> None:
         self.x, self.mesh = positions(x0, "x0").copy(), as_mesh(mesh)
         self.mesh._require_vertices(len(self.x))
         self.steps = 0
@@ -180,28 +208,28 @@ class Certifier:
         found = self_intersections(self.x, self.mesh, dimension=dimension, threads=threads, max_reports=max_reports)
         if found.count:
             raise Contact(f"x0: {found.count} pairs of cells intersect", found, None, np.empty(0, CONTACTS))
-        self._decide = None
+        self._decide: Any = None
 
-    def __enter__(self):
+    def __enter__(self) -> Certifier:
         return self
 
-    def __exit__(self, *exception):
+    def __exit__(self, *exception: object) -> None:
         self._decide = None
 
-    def step(self, x):
+    def step(self, x: ArrayLike) -> Impact:
         """Goes on to x if straight lines from here to there touch nothing, and returns an Impact. Raises Contact."""
-        x = positions(x, "x")
-        if x.shape != self.x.shape:
-            raise InputError(f"x: has the shape {x.shape}; expected {self.x.shape}")
+        there = positions(x, "x")
+        if there.shape != self.x.shape:
+            raise InputError(f"x: has the shape {there.shape}; expected {self.x.shape}")
         if self._decide is None:
-            self._decide = _steps_of(self.mesh, self.x, x, self._dimension, False, self._threads, self._reports)
-        touches = self._decide.step(self.x, x)
+            self._decide = _steps_of(self.mesh, self.x, there, self._dimension, False, self._threads, self._reports)
+        touches = self._decide.step(self.x, there)
         impact = Impact(touches, self._decide.first())
         if touches:
             count = self._decide.contact_count()
             text = f"step {self.steps + 1}: {count} pairs of features touch, first at t = {impact.time}"
             raise Contact(text, impact, impact.time, self._pairs())
-        self.x, self.steps = x.copy(), self.steps + 1
+        self.x, self.steps = there.copy(), self.steps + 1
         return impact
 
     def _pairs(self):

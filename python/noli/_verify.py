@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Did anything touch between these frames?"""
 
+from __future__ import annotations
+
 import json
 import os
+from typing import Any, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
 from ._errors import Contact, NotProved, UsageError
 from ._frames import file_names, given_frames
-from ._words import KINDS, PAIRS, POINTS, no_truth, progress_of, require_new
+from ._mesh import CollisionMesh
+from ._types import Features, Frames, Integers, Json, Mesh, Names, Path, Progress
+from ._words import KINDS, PAIRS, no_truth, progress_of, require_new
 
 CONTACTS = np.dtype(
     [
@@ -44,7 +49,15 @@ class FirstContact:
         Of both features; empty where there are no bodies.
     """
 
-    def __init__(self, json):
+    step: int
+    time: float
+    kind: str
+    pair: str
+    features: Features
+    point: np.ndarray[Any, np.dtype[np.float64]]
+    bodies: Tuple[str, ...]
+
+    def __init__(self, json: Json) -> None:
         first, second = json["features"]
         self.step, self.time, self.kind, self.pair = json["step"], json["time"], json["kind"], json["pair"]
         self.features = (tuple(first), tuple(second))
@@ -66,29 +79,31 @@ class Result:
         "contact", "too_near", "undecided".
     """
 
-    def __init__(self, outcome, mesh=None):
-        self._outcome, self._mesh, self._json = outcome, mesh, None
+    def __init__(self, outcome: _core.Outcome, mesh: Optional[CollisionMesh] = None) -> None:
+        self._outcome, self._mesh = outcome, mesh
+        self._json: Optional[Json] = None
 
     @property
-    def verdict(self):
+    def verdict(self) -> str:
         return self._outcome.verdict
 
-    __bool__ = no_truth
+    def __bool__(self) -> NoReturn:
+        no_truth(self)
 
-    def to_json(self):
+    def to_json(self) -> Json:
         """The result as a dict, as ``noli verify --json`` writes it: ``noli schema verify`` has its fields."""
         if self._json is None:
             self._json = json.loads(self._outcome.json())
         return self._json
 
     @property
-    def first(self):
+    def first(self) -> Optional[FirstContact]:
         """The first contact, a FirstContact; None if there is none, or cells intersect in the first frame."""
         first = self.to_json()["first"]
         return None if first is None else FirstContact(first)
 
     @property
-    def contacts(self):
+    def contacts(self) -> np.ndarray[Any, Any]:
         """Listed contacts (at most ``max_reports``), a structured array: step, time, kind, pair, vertices, point.
 
         ``vertices`` are those of the first feature, then of the second, and -1 where a pair has fewer than four.
@@ -102,26 +117,26 @@ class Result:
         return rows
 
     @property
-    def contact_count(self):
+    def contact_count(self) -> int:
         """How many pairs of features touch, listed or not; a lower bound unless ``complete``."""
         return sum(self.to_json()["contacts"].values())
 
     @property
-    def complete(self):
+    def complete(self) -> bool:
         """Whether everything was decided that was asked."""
         return self.to_json()["complete"]
 
-    def faces_in_contact(self, step):
+    def faces_in_contact(self, step: int) -> Integers:
         """Numbers of the faces in listed contacts of a step (from 1), ascending."""
         return self._outcome.faces_in_contact(step)
 
     @property
-    def statement(self):
+    def statement(self) -> Json:
         """What exactly was asked, a dict of texts."""
         return self.to_json()["statement"]
 
     @property
-    def inputs(self):
+    def inputs(self) -> list[Json]:
         """What was looked at, a list of dicts: name, bytes, SHA-256, type of numbers, vertices, cells, frames.
 
         The hash of frames in memory is that of all coordinates as little-endian doubles, (frames, vertices, 3).
@@ -129,16 +144,16 @@ class Result:
         return self.to_json()["inputs"]
 
     @property
-    def notes(self):
+    def notes(self) -> Names:
         """Remarks, a list of texts."""
         return self.to_json()["notes"]
 
     @property
-    def claim(self):
+    def claim(self) -> Json:
         """What was claimed, a dict as ``noli verify --claim-out`` writes it: ``noli.check(..., claim=...)`` takes it."""
         return json.loads(self._outcome.claim())
 
-    def raise_unless_proved(self):
+    def raise_unless_proved(self) -> Result:
         """Returns this result if its verdict is "proved". Raises Contact, or NotProved."""
         if self.verdict == "proved":
             return self
@@ -147,12 +162,12 @@ class Result:
             raise NotProved(text, self)
         raise Contact(text, self, self.first.time if self.first else None, self.contacts)
 
-    def report(self, file, *, title=None, force=False):
+    def report(self, file: Path, *, title: Optional[str] = None, force: bool = False) -> None:
         """Writes a page for a browser: verdict, motion, contacts, statement. Frames in memory have to be as they were."""
         require_new(file, force)
         self._outcome.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
 
-    def text(self, *, details=False):
+    def text(self, *, details: bool = False) -> str:
         """What ``noli verify`` prints; with ``details``, as with --verbose."""
         return self._outcome.text(details)
 
@@ -162,40 +177,40 @@ class Result:
     def __repr__(self):
         return f"<noli.Result: {self._outcome.text(False).splitlines()[-1]}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         from ._notebook import html_of
 
         return html_of(self)
 
 
 def verify(
-    frames,
-    mesh=None,
+    frames: Frames,
+    mesh: Optional[Mesh] = None,
     *,
-    proof=None,
-    check=True,
-    min_distance=0.0,
-    ring=1,
-    only_new=False,
-    at_rest=False,
-    strict=False,
-    points=False,
-    merge_identical=False,
-    dimension=None,
-    keep_going=False,
-    first_only=False,
-    max_reports=100,
-    threads=0,
-    time_limit=None,
-    order="checked",
-    keys=(),
-    polygons="fan",
-    ignore=None,
-    reproduce=False,
-    scene_folder=None,
-    force=False,
-    progress=None,
-):
+    proof: Optional[Path] = None,
+    check: bool = True,
+    min_distance: float = 0.0,
+    ring: int = 1,
+    only_new: bool = False,
+    at_rest: bool = False,
+    strict: bool = False,
+    points: bool = False,
+    merge_identical: bool = False,
+    dimension: Optional[int] = None,
+    keep_going: bool = False,
+    first_only: bool = False,
+    max_reports: int = 100,
+    threads: int = 0,
+    time_limit: Optional[float] = None,
+    order: str = "checked",
+    keys: Sequence[str] = (),
+    polygons: str = "fan",
+    ignore: Optional[Path] = None,
+    reproduce: bool = False,
+    scene_folder: Optional[Path] = None,
+    force: bool = False,
+    progress: Progress = None,
+) -> Result:
     """Decides exactly whether anything touches between successive frames, or in the windows of a run.
 
     Every vertex moves along a straight line from one frame to the next. Coordinates are taken as they are, without a
@@ -258,7 +273,7 @@ def verify(
     KeyboardInterrupt
         On Ctrl-C, within a tenth of a second.
     """
-    options = {
+    options: Json = {
         "check": bool(check),
         "min_distance": float(min_distance),
         "ring": int(ring),

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What several modules say or ask alike."""
 
+from __future__ import annotations
+
 import contextlib
 import os
+from typing import NoReturn
 
 import numpy as np
 
@@ -13,7 +16,7 @@ PAIRS = np.array(["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"])
 POINTS = {"vertex_face": (1, 3), "edge_edge": (2, 2), "vertex_edge": (1, 2), "vertex_vertex": (1, 1)}
 
 
-def no_truth(self):
+def no_truth(self: object) -> NoReturn:
     """Results are read either way round as a bool, so they are none."""
     raise TypeError(f"a {type(self).__name__} is neither true nor false; ask for its verdict or its numbers")
 
