@@ -167,6 +167,33 @@ class Result:
         require_new(file, force)
         self._outcome.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
 
+    def to_vtu(self, file: Path, *, number: int = 0, force: bool = False) -> None:
+        """Writes everything at the time of a contact as a grid for ParaView; its cells have "contact": 1, 2, else 0.
+
+        ``number`` is that of a listed contact, from 1; 0: the first of all. Frames in memory have to be as they were.
+        """
+        self._write_contact(file, ".vtu", number, force)
+
+    def to_png(self, file: Path, *, number: int = 0, force: bool = False) -> None:
+        """Writes a picture of a contact: the first feature's cells are red, the second's yellow."""
+        self._write_contact(file, ".png", number, force)
+
+    def _write_contact(self, file: Path, ending: str, number: int, force: bool) -> None:
+        if not os.fspath(file).endswith(ending):
+            raise UsageError(f"{os.fspath(file)}: expected a name that ends in {ending}")
+        require_new(file, force)
+        self._outcome.write_contact(os.fspath(file), int(number))
+
+    def plot(self, *, number: int = 0, backend: Optional[str] = None) -> Any:
+        """Draws a contact with "matplotlib", "vedo" or "polyscope"; default: the first of these that is installed.
+
+        Returns a figure of matplotlib, a Plotter of vedo, or the module polyscope, with the meshes in it: its ``show()``
+        shows them.
+        """
+        from ._pictures import plot
+
+        return plot(self._outcome.contact_frame(int(number)), backend)
+
     def text(self, *, details: bool = False) -> str:
         """What ``noli verify`` prints; with ``details``, as with --verbose."""
         return self._outcome.text(details)

@@ -7,6 +7,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,6 +42,16 @@ class PositionArray {
 
 /// (vertices, 3), float64.
 pybind11::array_t<double> array_of(const std::vector<Position>& positions);
+
+/// Cells as rows of whole numbers, (n, Size).
+template <std::size_t Size>
+pybind11::array_t<std::int64_t> rows_of_cells(const std::vector<std::array<VertexId, Size>>& cells) {
+  pybind11::array_t<std::int64_t> rows(
+      {static_cast<pybind11::ssize_t>(cells.size()), static_cast<pybind11::ssize_t>(Size)});
+  std::int64_t* place = rows.mutable_data();
+  for (const auto& cell : cells) place = std::copy(cell.begin(), cell.end(), place);
+  return rows;
+}
 
 /// A mesh of arrays (n, 3), (n, 2), (n) of int64, with any strides. Precondition: every index is below vertex_count.
 Mesh mesh_of(std::size_t vertex_count, const pybind11::array_t<std::int64_t>& faces,

@@ -102,14 +102,6 @@ class Repair {
   RepairOutcome outcome_;
 };
 
-template <std::size_t Size>
-py::array_t<std::int64_t> rows_of(const std::vector<std::array<VertexId, Size>>& cells) {
-  py::array_t<std::int64_t> rows({static_cast<py::ssize_t>(cells.size()), static_cast<py::ssize_t>(Size)});
-  std::int64_t* place = rows.mutable_data();
-  for (const auto& cell : cells) place = std::copy(cell.begin(), cell.end(), place);
-  return rows;
-}
-
 /// (positions of each frame, faces, edges, points) of frames in files.
 py::tuple read_frames(const std::vector<fs::path>& names) {
   std::vector<std::vector<Position>> frames;
@@ -125,7 +117,7 @@ py::tuple read_frames(const std::vector<fs::path>& names) {
   });
   py::list positions;
   for (const auto& frame : frames) positions.append(array_of(frame));
-  return py::make_tuple(positions, rows_of(mesh.faces), rows_of(mesh.edges),
+  return py::make_tuple(positions, rows_of_cells(mesh.faces), rows_of_cells(mesh.edges),
                         array_of(std::vector<std::int64_t>(mesh.points.begin(), mesh.points.end())));
 }
 

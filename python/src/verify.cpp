@@ -23,6 +23,7 @@
 #include "python/src/frames.h"
 #include "python/src/options.h"
 #include "report/documents.h"
+#include "report/figures/contact_export.h"
 #include "report/page/report_page.h"
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
@@ -147,7 +148,44 @@ class Outcome {
     });
   }
 
+  /// {positions, faces, edges, points, marks of cells: 1, 2, else 0, point, time, step}: everything at the time of the
+  /// contact with this number from 1 among those listed, or of the first.
+  py::dict contact_frame(std::size_t number) {
+    const report::ShownContact shown = contact_shown(number);
+    const Mesh& mesh = shown.frame.mesh;
+    std::vector<std::int64_t> marks(mesh.cell_count(), 0);
+    for (const report::Mark& mark : shown.marks) marks[mark.cell] = mark.side + 1;
+    py::dict found;
+    found["positions"] = array_of(shown.frame.positions);
+    found["faces"] = rows_of_cells(mesh.faces);
+    found["edges"] = rows_of_cells(mesh.edges);
+    found["points"] = array_of(std::vector<std::int64_t>(mesh.points.begin(), mesh.points.end()));
+    found["marks"] = array_of(marks);
+    found["point"] = shown.point;
+    found["step"] = shown.step;
+    found["time"] = shown.time;
+    return found;
+  }
+
+  /// A grid or a picture of a contact, as `noli export` writes them, by the ending of the name.
+  void write_contact(const std::filesystem::path& file, std::size_t number) {
+    const report::ShownContact shown = contact_shown(number);
+    in_background([&](Background&) { report::write_contact(shown, file, {}); });
+  }
+
  private:
+  report::ShownContact contact_shown(std::size_t number) {
+    std::optional<report::ShownContact> shown;
+    in_background([&](Background& background) {
+      if (given_) given_->call_through(&background);
+      if (given_ && !given_->given()->again) {
+        throw UsageError("the frames came from a generator, which is spent; expected an array or a list");
+      }
+      shown = report::contact_in(Json::parse(json()), given_ ? given_->given() : nullptr, number);
+    });
+    return *std::move(shown);
+  }
+
   void name_files(std::vector<std::filesystem::path> names) {
     request_.frames = named_frames(std::move(names));
     require_there(request_.frames);
@@ -211,7 +249,9 @@ void bind_verify(py::module_& core) {
       .def("text", &Outcome::text)
       .def("contacts", &Outcome::contacts)
       .def("faces_in_contact", &Outcome::faces_in_contact)
-      .def("report", &Outcome::report);
+      .def("report", &Outcome::report)
+      .def("contact_frame", &Outcome::contact_frame)
+      .def("write_contact", &Outcome::write_contact);
 }
 
 }  // namespace noli::python

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <noli/errors.h>
@@ -49,12 +50,13 @@ std::vector<VertexId> corners_of(const Mesh& mesh, std::uint32_t cell) {
 
 class ContactOf {
  public:
-  explicit ContactOf(const ContactExportRequest& request)
-      : path_(request.result), result_(read_result(request.result)) {
+  /// `path`: how messages call the result. `given`: nothing where it names files.
+  ContactOf(std::filesystem::path path, Json result, std::shared_ptr<const GivenFrames> given, std::size_t number)
+      : path_(std::move(path)), result_(std::move(result)), given_(std::move(given)) {
     if (result_.is_object() && result_.contains("meshes")) result_ = of_first_mesh_that_touches();
     if (!is_of_verify(result_)) refuse("is no result of noli verify; expected what noli verify --json wrote");
     try {
-      contact_ = parsed(chosen(request.number));
+      contact_ = parsed(chosen(number));
     } catch (const Json::exception& error) {
       refuse(fmt::format("lists a contact that noli verify does not write so: {}", error.what()));
     }
@@ -162,21 +164,30 @@ class ContactOf {
   }
 
   Frame frame_number(std::size_t k, const ResultInputs& about) {
-    if (!frames_) {
-      std::vector<std::filesystem::path> files;
-      for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
-      frames_ = open_all_frames(files, reading_of(result_.value("inputs", Json::array()),
-                                                  result_.at("statement").value("bodies", Json::array())));
-    }
+    if (!frames_) open();
     frames_->look_at(k);
     std::optional<Frame> frame = frames_->read(k);
     if (!frame) refuse(fmt::format("has a contact in step {}, but there are not so many frames", contact_.step));
-    about.require_files(frames_->facts());
+    about.require_files(given_ ? frames_->take_facts() : frames_->facts());
     return std::move(*frame);
   }
 
-  const std::filesystem::path& path_;
+  void open() {
+    std::vector<std::filesystem::path> files;
+    for (std::size_t i = 0; i < result_.at("inputs").size(); ++i) files.push_back(file(i));
+    FrameReading reading;
+    if (given_) {
+      reading.given = given_;
+    } else {
+      reading =
+          reading_of(result_.value("inputs", Json::array()), result_.at("statement").value("bodies", Json::array()));
+    }
+    frames_ = open_all_frames(files, std::move(reading));
+  }
+
+  std::filesystem::path path_;
   Json result_;
+  std::shared_ptr<const GivenFrames> given_;
   Contact contact_;
   std::unique_ptr<FrameSource> frames_;                       ///< open as soon as one is wanted
   std::optional<std::array<std::uint32_t, 2>> intersecting_;  ///< two cells, where no pair of features is chosen
@@ -238,45 +249,60 @@ bool in_plane(const Frame& frame) {
   return std::ranges::all_of(frame.positions, [&](const Position& x) { return x[2] == frame.positions[0][2]; });
 }
 
-void paint(const ContactExportRequest& request, const Contact& contact, const Frame& frame,
-           const std::vector<Mark>& marks) {
-  View view = view_from(request.view, in_plane(frame) ? 2 : 3);
+void paint(const ShownContact& shown, const std::filesystem::path& output, const PictureView& asked) {
+  View view = view_from(asked, in_plane(shown.frame) ? 2 : 3);
   if (view.height == 0) view.height = view.width * 3 / 4;
-  view.focus = Focus{point_of(contact, frame), radius_around(frame, marks)};
-  view.marks = marks;
-  with_asked_view(
-      [&] { replace_file(request.output, png(draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view))); });
+  view.focus = Focus{shown.point, radius_around(shown.frame, shown.marks)};
+  view.marks = shown.marks;
+  const std::vector<bool> none(shown.frame.mesh.vertex_count, false);
+  with_asked_view([&] { replace_file(output, png(draw(shown.frame, none, view))); });
 }
 
-void check(const ContactExportRequest& request, bool picture) {
-  if (!picture && request.output.extension() != ".vtu") {
-    throw UsageError("-o " + request.output.string() + ": expected a name that ends in .vtu or .png for a contact");
+bool is_picture(const std::filesystem::path& output) { return output.extension() == ".png"; }
+
+void check(const std::filesystem::path& output) {
+  const bool picture = is_picture(output);
+  if (!picture && output.extension() != ".vtu") {
+    throw UsageError("-o " + output.string() + ": expected a name that ends in .vtu or .png for a contact");
   }
   if (picture) require_pictures();
-  make_writable_folder(request.output.parent_path(), "-o");
+  make_writable_folder(output.parent_path(), "-o");
+}
+
+ShownContact shown(ContactOf result, const std::filesystem::path& path) {
+  Frame frame = result.frame();
+  const Contact& contact = result.contact();
+  for (const auto& vertices : contact.vertices) {
+    for (const VertexId v : vertices) {
+      if (v >= frame.mesh.vertex_count) throw InputError(path.string(), "", "names a vertex that is not there");
+    }
+  }
+  std::vector<Mark> marks = marks_of(contact, frame, result.merged());
+  const Position point = point_of(contact, frame);
+  return {contact.step, contact.time, std::move(frame), std::move(marks), point};
 }
 
 }  // namespace
 
+ShownContact contact_in(const Json& result, std::shared_ptr<const GivenFrames> given, std::size_t number) {
+  return shown(ContactOf("result", result, std::move(given), number), "result");
+}
+
+ShownContact contact_in(const std::filesystem::path& result, std::size_t number) {
+  return shown(ContactOf(result, read_result(result), nullptr, number), result);
+}
+
+void write_contact(const ShownContact& shown, const std::filesystem::path& output, const PictureView& view) {
+  check(output);
+  if (is_picture(output)) return paint(shown, output, view);
+  replace_file(output, format_vtu(shown.frame, cell_data(shown.frame.mesh, shown.marks)));
+}
+
 ContactExport export_contact(const ContactExportRequest& request) {
-  const bool picture = request.output.extension() == ".png";
-  check(request, picture);
-  ContactOf result(request);
-  const Frame frame = result.frame();
-  const Contact& contact = result.contact();
-  for (const auto& vertices : contact.vertices) {
-    for (const VertexId v : vertices) {
-      if (v >= frame.mesh.vertex_count)
-        throw InputError(request.result.string(), "", "names a vertex that is not there");
-    }
-  }
-  const std::vector<Mark> marks = marks_of(contact, frame, result.merged());
-  if (picture) {
-    paint(request, contact, frame, marks);
-  } else {
-    replace_file(request.output, format_vtu(frame, cell_data(frame.mesh, marks)));
-  }
-  return {contact.step, contact.time, marks.size()};
+  check(request.output);
+  const ShownContact shown = contact_in(request.result, request.number);
+  write_contact(shown, request.output, request.view);
+  return {shown.step, shown.time, shown.marks.size()};
 }
 
 }  // namespace noli::report

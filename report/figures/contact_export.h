@@ -11,8 +11,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <noli/frames.h>
+#include "certify/json.h"
+#include "report/figures/picture.h"
 #include "report/figures/run_picture.h"
 
 namespace noli::report {
@@ -24,6 +29,23 @@ struct ContactExportRequest {
   PictureView view;  ///< of a picture; `zoom` is not used
   std::filesystem::path output;  ///< ends in .vtu or .png
 };
+
+/// What is shown: everything at the time of contact.
+struct ShownContact {
+  std::size_t step = 0;  ///< from 1
+  double time = 0;
+  Frame frame;
+  std::vector<Mark> marks;  ///< the cells of both features
+  Position point{};         ///< where they meet; of cells that intersect, the middle of their corners
+};
+
+/// The same for frames in memory: `result` is what report::document() makes of their verification, and they have to be
+/// what it is about. Throws InputError.
+ShownContact contact_in(const Json& result, std::shared_ptr<const GivenFrames> given, std::size_t number);
+ShownContact contact_in(const std::filesystem::path& result, std::size_t number);
+
+/// As export_contact(). Throws UsageError, std::system_error.
+void write_contact(const ShownContact& shown, const std::filesystem::path& output, const PictureView& view);
 
 struct ContactExport {
   std::size_t step = 0;  ///< from 1

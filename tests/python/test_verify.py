@@ -183,6 +183,42 @@ class Verify(TestCase):
         with self.assertRaisesRegex(noli.InputError, "has changed"):
             result.report(self.folder / "other.html")
 
+    def test_pictures(self):
+        result = noli.verify(self.V, self.F)
+        grid_file = self.folder / "first.vtu"
+        result.to_vtu(grid_file)
+        frames, _ = noli.read_frames([grid_file])
+        x = self.V[3] + result.first.time * (self.V[4] - self.V[3])
+        self.assertTrue(np.allclose(frames[0], x, atol=1e-15))
+        self.assertIn(b"contact", grid_file.read_bytes())
+        shown = result._outcome.contact_frame(0)
+        self.assertEqual(set(np.flatnonzero(shown["marks"] == 2)), {result.to_json()["first"]["cells"][1][0]})
+        try:
+            result.to_png(self.folder / "first.png", number=3)
+            self.assertTrue((self.folder / "first.png").read_bytes().startswith(b"\x89PNG"))
+        except noli.UsageError as error:
+            self.assertIn("built without", str(error))
+        with self.assertRaisesRegex(noli.InputError, "lists 100 contacts"):
+            result.to_vtu(self.folder / "none.vtu", number=101)
+        with self.assertRaisesRegex(noli.InputError, "no contact"):
+            noli.verify(self.V[:4], self.F).to_vtu(self.folder / "none.vtu")
+        with self.assertRaisesRegex(noli.UsageError, "spent"):
+            noli.verify(iter(self.V), self.F).to_vtu(self.folder / "none.vtu")
+        self.V[0, 0, 0] += 1
+        with self.assertRaisesRegex(noli.InputError, "other frames"):
+            result.to_vtu(self.folder / "none.vtu")
+        with self.assertRaisesRegex(noli.UsageError, "backend"):
+            noli.verify(self.V[1:], self.F).plot(backend="pencil")
+
+    def test_plot(self):
+        try:
+            import matplotlib  # noqa: F401
+        except ImportError:
+            self.skipTest("there is no matplotlib")
+        figure = noli.verify(self.V, self.F).plot(backend="matplotlib")
+        figure.savefig(self.folder / "plot.png")
+        self.assertTrue((self.folder / "plot.png").read_bytes().startswith(b"\x89PNG"))
+
     def test_progress(self):
         told = []
         noli.verify(self.V, self.F, keep_going=True, progress=lambda work, share: told.append((work, share)))
