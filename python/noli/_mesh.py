@@ -108,12 +108,12 @@ class CollisionMesh:
             of[vertices] = number
         return of
 
-    def _groups(self, count):
+    def _groups(self, count, named):
         """The text of GROUPS.json (``noli verify --ignore``), or None."""
         if not self.ignore:
             return None
         groups = {"ignore": [list(pair) for pair in self.ignore]}
-        if not self._consecutive_bodies(count):
+        if not (named and self._consecutive_bodies(count)):
             self._body_of(count)
             groups["groups"] = {name: _ranges(vertices) for name, vertices in self.bodies.items()}
         return json.dumps(groups)

@@ -87,8 +87,8 @@ std::vector<FrameBody> bodies_of(const py::object& mesh, std::size_t vertex_coun
   return bodies;
 }
 
-std::shared_ptr<const IgnoredGroups> ignored_groups_of(const py::object& mesh, std::size_t vertex_count) {
-  const auto text = mesh.attr("_groups")(vertex_count).cast<std::optional<std::string>>();
+std::shared_ptr<const IgnoredGroups> ignored_groups_of(const py::object& mesh, std::size_t vertex_count, bool named) {
+  const auto text = mesh.attr("_groups")(vertex_count, named).cast<std::optional<std::string>>();
   if (!text) return nullptr;
   auto groups = std::make_shared<IgnoredGroups>();
   groups->file = groups->folder.path() / "ignore.json";

@@ -34,11 +34,13 @@ Mesh mesh_of(const pybind11::object& mesh, std::size_t vertex_count);
 /// Bodies whose vertices and faces are consecutive, if all are; nothing otherwise.
 std::vector<FrameBody> bodies_of(const pybind11::object& mesh, std::size_t vertex_count);
 
-/// The file of groups (certify/groups.h) that leaves out what the mesh ignores; nothing if it ignores nothing.
+/// The file of groups (certify/groups.h) that leaves out what the mesh ignores; nothing if it ignores nothing. `named`:
+/// frames have the bodies of bodies_of(), which then are the groups.
 struct IgnoredGroups {
   ScratchFolder folder;
   std::filesystem::path file;
 };
-std::shared_ptr<const IgnoredGroups> ignored_groups_of(const pybind11::object& mesh, std::size_t vertex_count);
+std::shared_ptr<const IgnoredGroups> ignored_groups_of(const pybind11::object& mesh, std::size_t vertex_count,
+                                                       bool named);
 
 }  // namespace noli::python

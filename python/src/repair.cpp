@@ -55,7 +55,7 @@ class Repair {
     std::optional<Frames> given;
     if (py::hasattr(frames, "vertices")) {
       given.emplace(frames);
-      ignored = ignored_groups_of(mesh, given->given()->mesh.vertex_count);
+      ignored = ignored_groups_of(mesh, given->given()->mesh.vertex_count, false);
       if (ignored) request_.ignore = ignored->file;
     } else {
       request_.frames = named_frames(frames.cast<std::vector<fs::path>>());

@@ -52,9 +52,8 @@ class Steps {
     options_.threads = threads;
     options_.max_reports = std::max<std::size_t>(max_reports, 1);
     options_.stop = &stop_;
-    if (const auto ignored = ignored_groups_of(mesh, vertices)) {
-      BodyNames names = names_of_frames(bodies_of(mesh, vertices));
-      groups_ = std::make_unique<const Groups>(read_groups(ignored->file, vertices, names));
+    if (const auto ignored = ignored_groups_of(mesh, vertices, false)) {
+      groups_ = std::make_unique<const Groups>(read_groups(ignored->file, vertices));
       require_whole_cells(ignored->file, *groups_, mesh_);
       options_.exclusions = &groups_->exclusions;
     }

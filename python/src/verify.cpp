@@ -77,7 +77,7 @@ class Outcome {
       request_.frames = {frames.attr("name").cast<std::string>()};
       request_.reading.given = given_->given();
       request_.ordered = "as given, in memory";
-      ignored_ = ignored_groups_of(mesh, given_->given()->mesh.vertex_count);
+      ignored_ = ignored_groups_of(mesh, given_->given()->mesh.vertex_count, true);
       if (ignored_) request_.ignore = ignored_->file;
     } else {
       name_files(frames.cast<std::vector<std::filesystem::path>>());

@@ -63,6 +63,12 @@ class Repair(TestCase):
         again = noli.repair(str(self.folder / "g*.obj"))
         self.assertTrue(np.array_equal(found.frames, again.frames))
 
+    def test_what_is_ignored(self):
+        free = noli.CollisionMesh(self.F, bodies=self.bodies, ignore=[("floor", "sheet")])
+        found = noli.repair(self.V, free)
+        self.assertEqual(found.verdict, "proved")
+        self.assertTrue(np.array_equal(found.frames, self.V))
+
     def test_bad_input(self):
         with self.assertRaisesRegex(noli.UsageError, "no vertex 128"):
             noli.repair(self.V, self.mesh, fixed=[128])
