@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 
 #include <noli/contact.h>
+#include <noli/errors.h>
 #include <noli/time_of_impact.h>
 #include "certify/queries/any_query.h"
 #include "kernel/parallel.h"
@@ -27,16 +31,15 @@ struct Answers {
   double* time;
 };
 
+/// Copies a query. False if a number of it is not finite.
 template <FeaturePair Pair, int Dim>
-Query<Pair, Dim> query_at(const double* x_t0, const double* x_t1) {
-  Query<Pair, Dim> query;
-  for (std::size_t i = 0; i < query.size; ++i) {
-    for (std::size_t axis = 0; axis < Dim; ++axis) {
-      query.x_t0[i][axis] = *x_t0++;
-      query.x_t1[i][axis] = *x_t1++;
-    }
-  }
-  return query;
+bool take_query(const double* x_t0, const double* x_t1, Query<Pair, Dim>& query) {
+  constexpr std::size_t numbers = point_count(Pair) * Dim;
+  std::memcpy(query.x_t0.data(), x_t0, numbers * sizeof(double));
+  std::memcpy(query.x_t1.data(), x_t1, numbers * sizeof(double));
+  double zero = 0;
+  for (std::size_t i = 0; i < numbers; ++i) zero += (x_t0[i] - x_t0[i]) + (x_t1[i] - x_t1[i]);
+  return zero == 0;
 }
 
 template <FeaturePair Pair, int Dim>
@@ -51,15 +54,23 @@ void answer(const Query<Pair, Dim>& query, std::size_t i, const Answers& answers
   answers.time[i] = first->time.lower();
 }
 
-/// Precondition: finite numbers of the shape (n, point_count, dimension).
+/// Precondition: numbers of the shape (n, point_count, dimension). Throws InputError with the first query that has one
+/// that is not finite.
 template <FeaturePair Pair, int Dim>
 void answer_all(const double* x_t0, const double* x_t1, std::size_t count, int threads, const Answers& answers,
                 const std::atomic<bool>& stop) {
   constexpr std::size_t numbers = point_count(Pair) * Dim;
+  std::atomic<std::size_t> bad = count;
   for_each_in_pieces(count, threads, [&](std::size_t i) {
     if (stop.load(std::memory_order_relaxed)) return;
-    answer(query_at<Pair, Dim>(x_t0 + i * numbers, x_t1 + i * numbers), i, answers);
+    Query<Pair, Dim> query;
+    if (take_query(x_t0 + i * numbers, x_t1 + i * numbers, query)) return answer(query, i, answers);
+    std::size_t least = bad.load();
+    while (i < least && !bad.compare_exchange_weak(least, i)) continue;
   });
+  if (bad < count) {
+    throw InputError("queries", "", fmt::format("query {} has a number that is not finite", bad.load()));
+  }
 }
 
 template <class... Arguments>

@@ -82,3 +82,10 @@ class Queries(TestCase):
                 noli.vertex_face_contact(x_t0, x_t1)
         with self.assertRaises(noli.InputError):
             noli.contacts("face_face", good, good)
+        for bad in (np.nan, np.inf, -np.inf):
+            for row, place in ((4, (0, 0)), (2, (3, 2))):
+                x = good.copy()
+                x[(row, *place)] = bad
+                for arguments in ((x, good), (good, x)):
+                    with self.assertRaisesRegex(noli.InputError, f"query {row} has a number that is not finite"):
+                        noli.vertex_face_contact(*arguments)
