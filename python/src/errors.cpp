@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include <system_error>
+#include <utility>
 
 #include <noli/errors.h>
 #include "python/src/bindings.h"
@@ -24,7 +25,7 @@ void raise_system(const std::system_error& error) {
 
 void translate(std::exception_ptr thrown) {
   try {
-    if (thrown) std::rethrow_exception(thrown);
+    if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const InputError& error) {
     raise("InputError", error.what());
   } catch (const UsageError& error) {

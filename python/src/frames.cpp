@@ -19,7 +19,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// What the step before has freed goes back to the system: an allocator with an arena for each thread would keep twice of
+/// Gives what the last step has freed back to the system. With an arena for each thread, the allocator would keep twice
 /// what a step needs.
 void return_memory() {
 #ifdef __GLIBC__

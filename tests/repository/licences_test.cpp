@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// The layers with code in the libraries or in the command.
 const std::set<std::string> shipped = {"kernel",         "trajectory", "certificates", "integrator", "proofs",
                                        "proofs/checker", "certify",    "report",       "audit",      "app",
-                                       "oracle",         "include"};
+                                       "oracle",         "include",    "python"};
 
 fs::path in_project(const fs::path& file) { return file.lexically_relative(NOLI_SOURCE_DIR); }
 
