@@ -60,18 +60,8 @@ std::vector<BodyFrames> bodies_of(const BodyWords& words, FrameOrder order, std:
   std::vector<BodyFrames> bodies;
   for (const std::string& word : words.bodies) bodies.push_back(parsed(word, "--body"));
   for (const std::string& word : words.obstacles) bodies.push_back(obstacle(word));
-  for (BodyFrames& body : bodies) {
-    OrderedFrames ordered = order_frames(std::move(body.frames), order);
-    body.frames = std::move(ordered.frames);
-    for (const std::string& note : ordered.notes) notes.push_back(body.name + ": " + note);
-  }
+  order_bodies(bodies, order, notes);
   return bodies;
-}
-
-std::vector<fs::path> files_of(const std::vector<BodyFrames>& bodies) {
-  std::vector<fs::path> files;
-  for (const BodyFrames& body : bodies) files.insert(files.end(), body.frames.begin(), body.frames.end());
-  return files;
 }
 
 }  // namespace noli::app

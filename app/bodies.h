@@ -4,7 +4,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,5 @@ void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames);
 /// The bodies with their files, each in the order that is asked for. Notes on the order are added to `notes`. Throws
 /// UsageError, InputError.
 std::vector<BodyFrames> bodies_of(const BodyWords& words, FrameOrder order, std::vector<std::string>& notes);
-
-/// All files of all bodies.
-std::vector<std::filesystem::path> files_of(const std::vector<BodyFrames>& bodies);
 
 }  // namespace noli::app

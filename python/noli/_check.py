@@ -10,8 +10,8 @@ from typing import NoReturn, Optional, Sequence
 
 from . import _core
 from ._errors import InputError, NotProved, UsageError
-from ._frames import file_names, given_frames
-from ._types import Claim, Frames, Json, Mesh, Names, Path
+from ._frames import bodies_in_files, file_names, given_frames
+from ._types import Bodies, Claim, Frames, Json, Mesh, Names, Path
 from ._words import no_truth
 
 
@@ -70,6 +70,8 @@ def check(
     require: Sequence[str] = (),
     claim: Claim = None,
     verified: bool = False,
+    order: str = "checked",
+    obstacles: Optional[Bodies] = None,
 ) -> Checked:
     """Has a separate program check a proof about these frames, or about a run.
 
@@ -77,7 +79,7 @@ def check(
     ----------
     proof : path
         Written by ``noli.verify(..., proof=...)``; or the folder of a run, without frames: its own proof.
-    frames, mesh
+    frames, mesh, order, obstacles
         As for ``noli.verify``. A generator can be read once.
     require : list of str
         Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``). Default: frames in
@@ -105,8 +107,10 @@ def check(
         raise InputError(f"{proof}: does not exist; expected a proof")
     asked = [str(word) for word in require]
     asked += [word for word in _fields(claim) if word.split("=")[0] not in {own.split("=")[0] for own in asked}]
+    options: Json = {"order": order, "bodies": bodies_in_files(frames, obstacles)}
     names = file_names(frames)
-    checked = Checked(_core.Check(proof, given_frames(frames, mesh) if names is None else names, asked, bool(verified)))
+    given = given_frames(frames, mesh) if names is None else names
+    checked = Checked(_core.Check(proof, given, asked, bool(verified), options))
     fault = "rejected: the command line, "
     if checked.words.startswith(fault):
         raise UsageError(checked.words.splitlines()[0][len(fault) :])

@@ -8,7 +8,7 @@ import os
 import numpy as np
 
 from ._arrays import positions
-from ._errors import InputError
+from ._errors import InputError, UsageError
 from ._mesh import as_mesh
 
 NAME = "frames"
@@ -25,8 +25,26 @@ class Given:
         self.count, self.again, self.array, self.next = count, again, array, next
 
 
+def bodies_in_files(frames, obstacles=None):
+    """(name, names of files, whether it stands still) of each body, where frames are a dict of these; else none."""
+    if not isinstance(frames, dict):
+        if obstacles:
+            raise UsageError("obstacles: stand beside bodies, a dict of name to names of files")
+        return []
+    rows = []
+    for still, bodies in ((False, frames), (True, obstacles or {})):
+        for name, files in bodies.items():
+            names = file_names(files)
+            if names is None:
+                raise UsageError(f"{name}: expected names of files; bodies in arrays belong to the mesh")
+            rows.append((str(name), names, still))
+    return rows
+
+
 def file_names(frames):
     """The names if these are frames in files, else None."""
+    if isinstance(frames, dict):
+        return [name for files in frames.values() for name in file_names(files) or ()]
     if isinstance(frames, (str, os.PathLike)):
         return [os.fspath(frames)]
     if isinstance(frames, (list, tuple)) and frames and all(isinstance(f, (str, os.PathLike)) for f in frames):

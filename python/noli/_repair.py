@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import indices, numbers
 from ._errors import InputError, NotProved, UsageError
-from ._frames import file_names, given_frames
+from ._frames import bodies_in_files, file_names, given_frames
 from ._mesh import CollisionMesh
-from ._types import Floats, Frames, Integers, Json, Mesh, Path, Progress
+from ._types import Bodies, Floats, Frames, Integers, Json, Mesh, Path, Progress
 from ._words import no_truth, progress_of
 
 
@@ -74,7 +74,10 @@ def repair(
     mesh: Optional[Mesh] = None,
     *,
     output: Optional[Path] = None,
-    fixed: Optional[ArrayLike] = None,
+    order: str = "checked",
+    obstacles: Optional[Bodies] = None,
+    ignore: Optional[Path] = None,
+    fixed: Union[ArrayLike, str, Sequence[str], None] = None,
     thickness: Optional[float] = None,
     masses: Union[str, ArrayLike, None] = None,
     restitution: float = 0.1,
@@ -95,12 +98,12 @@ def repair(
 
     Parameters
     ----------
-    frames, mesh
+    frames, mesh, order, obstacles, ignore
         As for ``noli.verify``; a generator is read to its end first.
     output : str, optional
         Where the new frames are written as well: "out/%04d.ply", .obj or .vtu.
-    fixed : (n,) whole numbers, or (vertices,) bool
-        Vertices that move as given, whatever they meet.
+    fixed : (n,) whole numbers, (vertices,) bool, or names of bodies
+        Vertices that move as given, whatever they meet. Obstacles always do.
     thickness : float
         The gap that is aimed at, in the unit of the positions. Default: from the mesh.
     masses : (vertices,) positive numbers, or "uniform"
@@ -131,12 +134,15 @@ def repair(
         options["proof"] = os.fspath(proof)
     if time_limit is not None:
         options["time_limit"] = min(float(time_limit), 1e9)
-    if fixed is not None:
-        options["fixed"] = _chosen(fixed)
     if resume and output is None:
         raise UsageError("resume: goes on with frames in files; expected output=")
     names = file_names(frames)
     given = given_frames(frames, mesh) if names is None else names
+    options.update(order=order, bodies=bodies_in_files(frames, obstacles))
+    if ignore is not None:
+        options["ignore"] = os.fspath(ignore)
+    if fixed is not None:
+        options.update(_chosen(fixed, mesh))
     if names is not None and mesh is not None:
         raise UsageError("mesh: frames in files have their own; expected none")
     with tempfile.TemporaryDirectory() as scratch, progress_of(progress) as told:
@@ -165,9 +171,17 @@ def read_frames(frames: Union[Path, Sequence[Path]]) -> Tuple[Floats, CollisionM
     return np.array(positions), CollisionMesh(faces, edges=edges, points=points, vertex_count=len(positions[0]))
 
 
-def _chosen(fixed):
-    array = np.asarray(fixed)
-    return (np.flatnonzero(array) if array.dtype == bool else indices(array, 1, "fixed")).tolist()
+def _chosen(fixed, mesh):
+    """Options for the vertices, or for the bodies, that move as given."""
+    array = np.atleast_1d(np.asarray(fixed))
+    if array.dtype.kind == "U":
+        bodies = getattr(mesh, "bodies", None)
+        if bodies is None:
+            return {"fixed_bodies": array.tolist()}
+        if any(name not in bodies for name in array):
+            raise UsageError(f"fixed: {array.tolist()} are not all names of bodies; there are {sorted(bodies)}")
+        array = np.concatenate([bodies[name] for name in array])
+    return {"fixed": (np.flatnonzero(array) if array.dtype == bool else indices(array, 1, "fixed")).tolist()}
 
 
 def _masses(masses, scratch):

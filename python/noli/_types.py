@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from ._mesh import CollisionMesh
 
 Path = Union[str, "os.PathLike[str]"]
-Frames = Union[ArrayLike, Sequence[ArrayLike], Iterable[ArrayLike], Path, Sequence[Path]]
+Bodies = Dict[str, Union[Path, Sequence[Path]]]
+Frames = Union[ArrayLike, Sequence[ArrayLike], Iterable[ArrayLike], Path, Sequence[Path], Bodies]
 Mesh = Union[CollisionMesh, ArrayLike]
 Json = Dict[str, Any]
 Floats = NDArray[np.floating[Any]]

@@ -11,9 +11,9 @@ import numpy as np
 
 from . import _core
 from ._errors import Contact, NotProved, UsageError
-from ._frames import file_names, given_frames
+from ._frames import bodies_in_files, file_names, given_frames
 from ._mesh import CollisionMesh
-from ._types import Features, Frames, Integers, Json, Mesh, Names, Path, Progress
+from ._types import Bodies, Features, Frames, Integers, Json, Mesh, Names, Path, Progress
 from ._words import KINDS, PAIRS, no_truth, progress_of, require_new
 
 CONTACTS = np.dtype(
@@ -214,6 +214,7 @@ def verify(
     frames: Frames,
     mesh: Optional[Mesh] = None,
     *,
+    obstacles: Optional[Bodies] = None,
     proof: Optional[Path] = None,
     check: bool = True,
     min_distance: float = 0.0,
@@ -248,9 +249,12 @@ def verify(
     frames : array (frames, vertices, 2 or 3), list of arrays, generator of arrays, or names of files
         float32 or float64, in any order in memory; each frame is copied once, and hash and decision use the copy. A
         generator may be of any length: two frames are in memory at a time. Names: files in the order of time, a
-        pattern ("cloth_*.obj"), a folder, a .npz file, or the folder of one run.
+        pattern ("cloth_*.obj"), a folder, a .npz file, or the folder of one run. A dict of name to names of files joins
+        bodies into one mesh, each with frames of its own.
     mesh : CollisionMesh, or (n, 3) faces
         Needed for arrays; files have their own.
+    obstacles : dict of name to a file, optional
+        Bodies that stand still, beside bodies in files.
     proof : path, optional
         Where the proof is written, for ``noli.check`` and ``noli check``.
     check : bool
@@ -332,6 +336,7 @@ def verify(
     if proof is not None:
         require_new(proof, force)
         options["proof"] = os.fspath(proof)
+    bodies = bodies_in_files(frames, obstacles)
     names = file_names(frames)
     if names is None:
         given = given_frames(frames, mesh)
@@ -345,6 +350,7 @@ def verify(
         raise UsageError(f'polygons: expected "fan" or "refuse", found {polygons!r}')
     options["order"] = order
     options["keys"] = list(keys)
+    options["bodies"] = bodies
     if polygons == "refuse":
         options["refuse_polygons"] = True
     if ignore is not None:

@@ -28,14 +28,16 @@ namespace fs = std::filesystem;
 /// A proof, and the frames or the run that it is about.
 class Check {
  public:
-  Check(fs::path proof, const py::object& frames, std::vector<std::string> asked, bool verified)
+  Check(fs::path proof, const py::object& frames, std::vector<std::string> asked, bool verified,
+        const py::dict& options)
       : which_(verified ? Checker::verified : Checker::plain) {
     checked_.proof = std::move(proof);
     checked_.asked = std::move(asked);
     if (py::hasattr(frames, "vertices")) {
       given_.emplace(frames);
     } else {
-      name_files(frames.cast<std::vector<fs::path>>());
+      bodies_ = bodies_in_files(options, checked_.notes);
+      name_files(frames.cast<std::vector<fs::path>>(), order_of(options));
     }
     in_background([&](Background& background) {
       if (given_) given_->call_through(&background);
@@ -51,8 +53,12 @@ class Check {
   }
 
  private:
-  void name_files(std::vector<fs::path> names) {
-    OrderedFrames ordered = order_frames(named_frames(std::move(names)));
+  void name_files(std::vector<fs::path> names, FrameOrder order) {
+    if (!bodies_.empty()) {
+      files_ = files_of(bodies_);
+      return;
+    }
+    OrderedFrames ordered = order_frames(named_frames(std::move(names)), order);
     files_ = std::move(ordered.frames);
     checked_.notes = std::move(ordered.notes);
     if (files_.size() == 1 && fs::is_directory(files_[0])) {
@@ -66,10 +72,11 @@ class Check {
                                .trajectory = trajectory_for_checker(files_),
                                .asked = checked_.asked,
                                .stop = background.stop()};
-    if (!given_ && checkers_read(request.trajectory)) {
+    if (!given_ && bodies_.empty() && checkers_read(request.trajectory)) {
       checked_.verdict = check_proof(request);
     } else {
       FrameReading reading;
+      reading.bodies = bodies_;
       std::vector<fs::path> names = request.trajectory;
       if (given_) reading.given = given_->given();
       if (given_) names = {"frames"};
@@ -82,6 +89,7 @@ class Check {
 
   Checker which_;
   std::vector<fs::path> files_;
+  std::vector<BodyFrames> bodies_;
   std::optional<Frames> given_;
   report::Checked checked_;
 };
@@ -90,7 +98,7 @@ class Check {
 
 void bind_check(py::module_& core) {
   py::class_<Check>(core, "Check")
-      .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool>())
+      .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool, const py::dict&>())
       .def("json", &Check::json)
       .def("text", &Check::text);
   core.def("read_claim_file", &read_claim_file);

@@ -12,14 +12,36 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include <noli/frames.h>
 #include "python/src/background.h"
+#include "trajectory/formats/frame_names.h"
 
 namespace noli::python {
 
 template <class Value>
 void put(const pybind11::dict& options, const char* name, Value& member) {
   if (options.contains(name)) member = options[name].cast<Value>();
+}
+
+/// "order": of frames in files.
+inline FrameOrder order_of(const pybind11::dict& options) {
+  std::string order = "checked";
+  put(options, "order", order);
+  return order == "natural" ? FrameOrder::natural : order == "given" ? FrameOrder::given : FrameOrder::checked;
+}
+
+/// "bodies": (name, names of files, whether it stands still) of each, in order. Notes on that are added to `notes`.
+inline std::vector<BodyFrames> bodies_in_files(const pybind11::dict& options, std::vector<std::string>& notes) {
+  std::vector<std::tuple<std::string, std::vector<std::filesystem::path>, bool>> rows;
+  put(options, "bodies", rows);
+  std::vector<BodyFrames> bodies;
+  for (auto& [name, files, still] : rows) bodies.push_back({name, named_frames(std::move(files)), still});
+  order_bodies(bodies, order_of(options), notes);
+  return bodies;
 }
 
 /// "time_limit", in seconds from now.

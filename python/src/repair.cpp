@@ -32,6 +32,8 @@ void put_options(const py::dict& options, RepairRequest& request) {
   put(options, "points", request.points);
   put(options, "only_new", request.only_new);
   put(options, "fixed", request.fixed_listed);
+  put(options, "fixed_bodies", request.fixed_bodies);
+  put(options, "ignore", request.ignore);
   put(options, "thickness", request.thickness);
   put(options, "masses", request.masses);
   put(options, "restitution", request.restitution);
@@ -58,7 +60,11 @@ class Repair {
       ignored = ignored_groups_of(mesh, given->given()->mesh.vertex_count, false);
       if (ignored) request_.ignore = ignored->file;
     } else {
-      request_.frames = named_frames(frames.cast<std::vector<fs::path>>());
+      request_.order = order_of(options);
+      std::vector<std::string> notes;
+      request_.reading.bodies = bodies_in_files(options, notes);
+      request_.frames = request_.reading.bodies.empty() ? named_frames(frames.cast<std::vector<fs::path>>())
+                                                        : files_of(request_.reading.bodies);
     }
     in_background([&](Background& background) {
       const ScratchFolder folder;

@@ -58,12 +58,8 @@ void put_options(const py::dict& options, VerifyRequest& request) {
   put(options, "check", request.check);
   put(options, "keys", request.reading.keys);
   if (options.contains("refuse_polygons")) request.reading.polygons = PolygonRule::refuse;
-  if (options.contains("order")) {
-    const auto order = options["order"].cast<std::string>();
-    request.order = order == "natural" ? FrameOrder::natural
-                    : order == "given" ? FrameOrder::given
-                                       : FrameOrder::checked;
-  }
+  request.order = order_of(options);
+  request.reading.bodies = bodies_in_files(options, request.order_notes);
   request.deadline = deadline_of(options);
 }
 
@@ -187,6 +183,11 @@ class Outcome {
   }
 
   void name_files(std::vector<std::filesystem::path> names) {
+    if (!request_.reading.bodies.empty()) {
+      request_.frames = files_of(request_.reading.bodies);
+      request_.ordered = "each body's as given";
+      return;
+    }
     request_.frames = named_frames(std::move(names));
     require_there(request_.frames);
     request_.run = request_.frames.size() == 1 && std::filesystem::is_directory(request_.frames[0]);

@@ -118,6 +118,34 @@ class Verify(TestCase):
         self.assertTrue(np.array_equal(V, fixed.frames))
         self.assertTrue(np.array_equal(mesh.faces, self.F))
 
+    def test_bodies_in_files(self):
+        for body, of in self.bodies.items():
+            faces = self.F[np.isin(self.F, of).all(axis=1)] - of[0]
+            noli.repair(self.V[:, of], faces, output=self.folder / f"{body}_%d.obj")
+        (self.folder / "still.obj").write_bytes((self.folder / "floor_0.obj").read_bytes())
+        names = {"floor": str(self.folder / "floor_*.obj"), "sheet": str(self.folder / "sheet_*.obj")}
+        result = noli.verify(names)
+        self.assertEqual(result.first.bodies, ("floor", "sheet"))
+        self.assertEqual(result.first.step, 4)
+        proof = self.folder / "bodies.noli"
+        result = noli.verify({"sheet": names["sheet"]}, obstacles={"floor": self.folder / "still.obj"}, proof=proof)
+        self.assertEqual((result.verdict, result.first.step), ("contact", 4))
+        found = noli.check(proof, {"sheet": names["sheet"]}, obstacles={"floor": self.folder / "still.obj"})
+        self.assertEqual(found.verdict, "refuted")
+        mended = noli.repair(names, fixed="floor")
+        self.assertEqual(mended.verdict, "proved")
+        self.assertTrue(np.array_equal(mended.frames[mended.given_times][:, :64], self.V[:, :64]))
+        again = noli.repair(self.V, noli.CollisionMesh(self.F, bodies=self.bodies), fixed=["floor"])
+        self.assertTrue(np.array_equal(again.frames, mended.frames))
+        for call in (
+            lambda: noli.verify({"a": self.V}),
+            lambda: noli.verify(self.V, self.F, obstacles={"a": "b.obj"}),
+            lambda: noli.repair(self.V, noli.CollisionMesh(self.F, bodies=self.bodies), fixed=["wall"]),
+            lambda: noli.repair(names, fixed=["wall"]),
+        ):
+            with self.assertRaises(noli.UsageError):
+                call()
+
     def test_proof(self):
         proof = self.folder / "sheet.noli"
         mesh = noli.CollisionMesh(self.F)

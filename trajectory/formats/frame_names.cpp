@@ -145,6 +145,20 @@ Paths files_named(const Paths& given) {
   return files;
 }
 
+void order_bodies(std::vector<BodyFrames>& bodies, FrameOrder order, std::vector<std::string>& notes) {
+  for (BodyFrames& body : bodies) {
+    OrderedFrames ordered = order_frames(std::move(body.frames), order);
+    body.frames = std::move(ordered.frames);
+    for (const std::string& note : ordered.notes) notes.push_back(body.name + ": " + note);
+  }
+}
+
+std::vector<std::filesystem::path> files_of(const std::vector<BodyFrames>& bodies) {
+  std::vector<std::filesystem::path> files;
+  for (const BodyFrames& body : bodies) files.insert(files.end(), body.frames.begin(), body.frames.end());
+  return files;
+}
+
 void require_there(const std::vector<std::filesystem::path>& frames) {
   std::error_code error;
   if (frames.size() != 1 || frames[0] == "-" || std::filesystem::exists(std::filesystem::status(frames[0], error)))

@@ -13,13 +13,22 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
+
+#include <noli/frames.h>
 
 namespace noli {
 
 /// The files, in the order in which they are named. Names of files, and of folders without frames, stay. Throws
 /// InputError: nothing matches, a folder has frames of several formats, a list cannot be read or names nothing.
 std::vector<std::filesystem::path> named_frames(std::vector<std::filesystem::path> given);
+
+/// Orders the frames of each body. Notes on that are added to `notes`, with the body's name. Throws as order_frames().
+void order_bodies(std::vector<BodyFrames>& bodies, FrameOrder order, std::vector<std::string>& notes);
+
+/// All files of all bodies.
+std::vector<std::filesystem::path> files_of(const std::vector<BodyFrames>& bodies);
 
 /// Throws InputError if a single one is named, and there is no such file or folder: else it would be said first that one
 /// frame has no motion.
