@@ -16,6 +16,7 @@
 #include "app/process.h"
 #include "app/progress.h"
 #include "certify/frame_files.h"
+#include "certify/repair/moving_vertices.h"
 #include "certify/repair/repaired_frames.h"
 #include "report/repair_report.h"
 #include "trajectory/formats/frame_names.h"
@@ -42,6 +43,7 @@ constexpr const char* repair_footer =
 struct RepairArguments {
   RepairRequest request;
   BodyWords bodies;
+  std::optional<std::filesystem::path> fixed_vertices;
   std::string time_limit;
   OutputOptions results;
 };
@@ -98,6 +100,10 @@ ExitCode run(RepairArguments& arguments) {
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
   if (request.ignore) inputs.push_back(*request.ignore);
   if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
+  if (arguments.fixed_vertices) {
+    inputs.push_back(*arguments.fixed_vertices);
+    request.fixed_listed = listed_vertices(*arguments.fixed_vertices);
+  }
   const Output output(arguments.results, inputs, outputs_of(arguments));
   request.force = arguments.results.force && !request.resume;
   request.stop = &interrupted();
@@ -130,6 +136,10 @@ Command add_repair(CLI::App& app) {
   command->add_option("--fixed-first", request.fixed_first, "The first N vertices move as given")
       ->check(whole_number(0, 1'000'000'000))
       ->type_name("N");
+  command
+      ->add_option("--fixed-vertices", arguments->fixed_vertices,
+                   "Vertices that move as given, a text file with their numbers from 0")
+      ->type_name("FILE");
   command->add_flag("--resume", request.resume, "Continue a stopped repair after its last complete step");
   add_order_option(*command, request.order);
   command

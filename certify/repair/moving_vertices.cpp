@@ -48,6 +48,24 @@ std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size
   return fixed;
 }
 
+std::vector<VertexId> listed_vertices(const std::filesystem::path& file) {
+  const std::string text = read_whole_file(file);
+  std::vector<VertexId> vertices;
+  Lines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    Words words(line);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      VertexId vertex = 0;
+      if (parse_number(word, vertex) != std::errc()) {
+        throw InputError(file.string(), line_place(lines.number()),
+                         "expected the number of a vertex, found " + in_quotes(word));
+      }
+      vertices.push_back(vertex);
+    }
+  }
+  return vertices;
+}
+
 std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x) {
   if (request.masses == "size") return masses_by_size(mesh, x);
   if (request.masses == "uniform") return std::vector<double>(mesh.vertex_count, 1);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace noli {
 /// By vertex, 1 if it moves as given. Throws UsageError.
 std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size_t count,
                                          const std::vector<FrameBody>& bodies);
+
+/// The numbers in a text file, for RepairRequest::fixed_listed. Throws InputError, with the line: anything else.
+std::vector<VertexId> listed_vertices(const std::filesystem::path& file);
 
 /// By vertex, of any unit. Throws InputError.
 std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x);

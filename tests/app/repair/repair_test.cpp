@@ -55,6 +55,25 @@ TEST_F(Repair, FixedVerticesMoveAsGiven) {
   for (VertexId v = 3; v < 6; ++v) EXPECT_GT(repaired[v][2], 0) << v;
 }
 
+TEST_F(Repair, ListedVerticesMoveAsGiven) {
+  const Words frames = falling({1, -0.5});
+  const std::string list = folder.write("fixed.txt", "3 4\n5\n");
+  const Json json = json_of(repair(frames, {"--fixed-vertices", list}), 0);
+  EXPECT_EQ(json["fixed"], 3);
+  const auto given = positions(frames[1]), repaired = positions(out(json["frames"].get<std::size_t>() - 1));
+  for (VertexId v = 3; v < 6; ++v) EXPECT_EQ(repaired[v], given[v]) << v;
+  for (VertexId v = 0; v < 3; ++v) EXPECT_LT(repaired[v][2], -0.5) << v;
+  const Process beyond = run_noli(repair(frames, {"--fixed-vertices", folder.write("six.txt", "6\n"), "--force"}));
+  EXPECT_EQ(beyond.exit_code, 3);
+  EXPECT_NE(beyond.err.find("there is no vertex 6; the frames have 6"), std::string::npos) << beyond.err;
+  for (const char* const bad : {"1\n-1\n", "1\n1.5\n", "1\nx\n", "1\n4294967296\n"}) {
+    const Process process = run_noli(repair(frames, {"--fixed-vertices", folder.write("bad.txt", bad), "--force"}));
+    EXPECT_EQ(process.exit_code, 3) << bad;
+    EXPECT_NE(process.err.find("bad.txt: line 2: expected the number of a vertex, found"), std::string::npos)
+        << process.err;
+  }
+}
+
 TEST_F(Repair, BodiesAreJoinedAndSomeMoveAsGiven) {
   const auto triangle = [&](const char* name, double z) {
     return folder.write(name, ply_text({{1, 1, z}, {1.5, 1, z}, {1, 1.5, z}}, {{0, 1, 2}}));
