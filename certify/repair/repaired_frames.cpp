@@ -107,7 +107,8 @@ std::string RepairedFrames::fingerprint() const {
   for (const BodyFrames& body : request_.reading.bodies) text += fmt::format("{} {}\n", body.name, body.still);
   if (request_.ignore) text += read_whole_file(*request_.ignore);
   for (const FrameFacts& facts : source_.facts()) {
-    text += fmt::format("{} {} {} {}\n", facts.file, facts.body, facts.bytes, hex(facts.sha256));
+    const std::string name = std::filesystem::path(facts.file).filename().string();  // wherever it is now
+    text += fmt::format("{} {} {} {}\n", name, facts.body, facts.bytes, hex(facts.sha256));
   }
   Sha256 hash;
   hash.update(text);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays as the module in C++ takes them. No number is rounded on the way: what would have to be is an error."""
+"""Arrays as the module in C++ takes them. Numbers are never rounded; one that float64 cannot hold is an error."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from ._errors import InputError
 
 MOST_ROWS = 2**31 - 1
+MOST_WHOLE = 2**53  # up to here every whole number is a double
 
 
 def numbers(value, what):
@@ -17,15 +18,21 @@ def numbers(value, what):
     try:
         array = np.asarray(value)
     except (ValueError, TypeError) as error:
-        raise InputError(f"{what}: is no array: {error}") from None
+        raise InputError(f"{what}: cannot be read as an array: {error}") from None
     if array.dtype.newbyteorder("=") in (np.float32, np.float64):
         return array.astype(array.dtype.newbyteorder("="), copy=False)
     if array.dtype == object or array.dtype.kind not in "fiub":
         raise InputError(f"{what}: expected numbers, found an array of {array.dtype}")
     exact = array.astype(np.float64)
-    if array.dtype != np.float16 and not np.array_equal(exact.astype(array.dtype), array, equal_nan=array.dtype.kind == "f"):
-        raise InputError(f"{what}: some numbers of type {array.dtype} are no doubles; expected float32 or float64")
+    if not _is_exact(array, exact):
+        raise InputError(f"{what}: some {array.dtype} numbers are not exact as float64; pass float32 or float64")
     return exact
+
+
+def _is_exact(array, exact):
+    if array.dtype.kind in "iub":
+        return array.size == 0 or (int(array.max()) <= MOST_WHOLE and int(array.min()) >= -MOST_WHOLE)
+    return np.array_equal(exact.astype(array.dtype), array, equal_nan=True)
 
 
 def positions(value, what, dimensions=2):
@@ -44,7 +51,7 @@ def indices(value, columns, what):
     try:
         array = np.asarray([] if value is None else value)
     except (ValueError, TypeError) as error:
-        raise InputError(f"{what}: is no array: {error}") from None
+        raise InputError(f"{what}: cannot be read as an array: {error}") from None
     if array.size == 0:
         array = np.empty((0,) if columns == 1 else (0, columns), np.int64)
     if array.dtype.kind not in "iu":
@@ -57,4 +64,6 @@ def indices(value, columns, what):
     if array.size and (array.min() < 0 or array.max() > MOST_ROWS):
         bad = array.min() if array.min() < 0 else array.max()
         raise InputError(f"{what}: there is no vertex {bad}")
-    return np.ascontiguousarray(array, np.int64)
+    own = np.array(array, np.int64, order="C")  # nobody changes it once it has been checked
+    own.flags.writeable = False
+    return own

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Somebody else's continuous collision detection, as a function of arrays, against the exact answers."""
+"""Compares a collision detection function with the exact answers."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import InputError, UsageError
 from ._queries import _points, contacts
+from ._options import LONGEST, distance, words
 from ._types import CcdFunction, Floats, Path
 from ._words import PAIRS, no_truth
 
-FAULTS = ("false_negative", "late", "bad_time", "no_time", "false_positive", "early")
+FAULTS = ("false_negative", "late", "bad_time", "false_positive", "early")
 ASKED = ("vertex_face", "edge_edge")
 
 
@@ -27,7 +28,7 @@ class Finding:
     ----------
     fault : str
         "false_negative": they meet, it says no. "late": a time after the first. "bad_time": outside [0, 1].
-        "no_time": none for a hit. Of a function that claims to be exact also "false_positive" and "early".
+        With ``exact=True`` also "false_positive" and "early".
     pair, x_t0, x_t1
         The query: (4, 3) each.
     kind, time
@@ -73,10 +74,9 @@ class Audit:
     asked, contacts : int
         Queries, and how many of them are contacts.
     faults : dict of name to int
-        All that were found, those that do not count included: of a function that is no exact one, "false_positive" and
-        "early" do not.
+        All that were found. "false_positive" and "early" count for the verdict only with ``exact=True``.
     findings : list of Finding
-        At most ``max_findings``, the simplest first.
+        At most ``max_findings``.
     """
 
     def __init__(self, exact: bool, max_findings: int) -> None:
@@ -108,7 +108,7 @@ def audit_ccd(
     exact: bool = False,
     max_findings: int = 20,
 ) -> Audit:
-    """Asks a function what Noli knows exactly.
+    """Compares a function's answers with the exact ones.
 
     Parameters
     ----------
@@ -159,9 +159,13 @@ def fuzz_queries(
         raise UsageError("expected seconds=, count= or both")
     if not hasattr(_core, "adversarial_queries"):
         raise UsageError("this noli was built without audits; expected one with NOLI_WITH_AUDIT=ON")
+    pairs = words(pairs)
+    if not pairs:
+        raise UsageError(f"pairs: expected one of {', '.join(ASKED)} at least")
     for pair in pairs:
         _require_pair(pair)
-    audit, end, each, round_number = Audit(exact, max_findings), clock.monotonic() + (seconds or 1e9), 64, 0
+    limit = LONGEST if seconds is None else distance(seconds, "seconds")
+    audit, end, each, round_number = Audit(exact, max_findings), clock.monotonic() + limit, 64, 0
     while clock.monotonic() < end and (count is None or audit.asked < count):
         for pair in pairs:
             names, x_t0, x_t1 = _core.adversarial_queries(_number(pair), seed, round_number, each)
@@ -223,7 +227,7 @@ def _ask(audit, function, pair, x_t0, x_t1, generator=None):
         if not audit.counts(name):
             continue
         alike = sum(finding.fault == name for finding in audit.findings)
-        for row in rows[: max(0, min(audit._most - len(audit.findings), audit._most // 2 - alike))]:
+        for row in rows[: max(0, min(audit._most - len(audit.findings), -(-audit._most // 2) - alike))]:
             audit.findings.append(
                 Finding(
                     fault=name,

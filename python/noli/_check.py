@@ -11,6 +11,7 @@ from typing import NoReturn, Optional, Sequence
 from . import _core
 from ._errors import InputError, NotProved, UsageError
 from ._frames import bodies_in_files, file_names, given_frames
+from ._options import ORDERS, choice, refuse_options_of_files, words
 from ._types import Bodies, Claim, Frames, Json, Mesh, Names, Path
 from ._words import no_truth
 
@@ -105,10 +106,14 @@ def check(
         proof, frames = os.path.join(proof, "proof.blocks"), proof
     if not os.path.exists(proof):
         raise InputError(f"{proof}: does not exist; expected a proof")
-    asked = [str(word) for word in require]
+    asked = words(require)
     asked += [word for word in _fields(claim) if word.split("=")[0] not in {own.split("=")[0] for own in asked}]
-    options: Json = {"order": order, "bodies": bodies_in_files(frames, obstacles)}
+    options: Json = {"order": choice(order, "order", ORDERS), "bodies": bodies_in_files(frames, obstacles)}
     names = file_names(frames)
+    if names is None:
+        refuse_options_of_files({"order": order})
+    elif mesh is not None:
+        raise UsageError("mesh: frames in files have their own; expected none")
     given = given_frames(frames, mesh) if names is None else names
     checked = Checked(_core.Check(proof, given, asked, bool(verified), options))
     fault = "rejected: the command line, "

@@ -11,11 +11,15 @@ class NoliError(Exception):
 
 
 class InputError(NoliError, ValueError):
-    """What was given to look at is at fault: a file, an array. The text says which, where, and what was expected."""
+    """The input is at fault: a file or an array. The text says which, where, and what was expected."""
 
 
 class UsageError(NoliError, ValueError):
     """The call is at fault: arguments that do not go together, a place that cannot be written to."""
+
+
+class WriteError(NoliError, OSError):
+    """Results could not be written: the disk is full, for example."""
 
 
 class Stopped(NoliError):

@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 
-from ._arrays import positions
+from ._arrays import numbers, positions
 from ._errors import InputError, UsageError
 from ._mesh import as_mesh
 
@@ -29,7 +29,7 @@ def bodies_in_files(frames, obstacles=None):
     """(name, names of files, whether it stands still) of each body, where frames are a dict of these; else none."""
     if not isinstance(frames, dict):
         if obstacles:
-            raise UsageError("obstacles: stand beside bodies, a dict of name to names of files")
+            raise UsageError("obstacles: need frames as a dict of body name to files; in arrays, they are part of the mesh")
         return []
     rows = []
     for still, bodies in ((False, frames), (True, obstacles or {})):
@@ -70,13 +70,14 @@ def _of_array(array, mesh):
 
 def _of_sequence(frames, mesh):
     if not len(frames):
-        raise InputError(f"{NAME}: there are none; expected at least two to have a motion")
+        raise InputError(f"{NAME}: found none; expected at least two to have a motion")
     first = positions(frames[0], f"{NAME}[0]")
+    types = sorted({str(numbers(frame, NAME).dtype) for frame in frames if isinstance(frame, np.ndarray)})
 
     def next(k):
-        return positions(frames[k], f"{NAME}[{k}]")
+        return _like(first, positions(frames[k], f"{NAME}[{k}]"), k)
 
-    return Given(mesh, len(first), numbers=str(first.dtype), count=len(frames), again=True, next=next)
+    return Given(mesh, len(first), numbers="/".join(types) or str(first.dtype), count=len(frames), again=True, next=next)
 
 
 def _of_iterator(frames, mesh):
@@ -86,13 +87,20 @@ def _of_iterator(frames, mesh):
         if start:
             return start.pop()
         for frame in _at_most_one(frames):
-            return positions(frame, f"{NAME}[{k}]")
+            return _like(first, positions(frame, f"{NAME}[{k}]"), k)
         return None
 
     if not start:
-        raise InputError(f"{NAME}: the generator gave none; expected at least two to have a motion")
+        raise InputError(f"{NAME}: the generator yielded none; expected at least two to have a motion")
     first = start[0]
     return Given(mesh, len(first), numbers=str(first.dtype), next=next)
+
+
+def _like(first, frame, k):
+    """The frame, if it has as many coordinates as the first one."""
+    if frame.shape[1] != first.shape[1]:
+        raise InputError(f"{NAME}[{k}]: has {frame.shape[1]} coordinates; expected {first.shape[1]} as in the first frame")
+    return frame
 
 
 def _at_most_one(iterator):

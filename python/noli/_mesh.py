@@ -56,10 +56,10 @@ class CollisionMesh:
         self.points = indices(points, 1, "points")
         self.vertex_count = vertex_count
         self.bodies = {str(name): indices(of, 1, f"bodies[{name!r}]") for name, of in (bodies or {}).items()}
-        self.ignore = [tuple(pair) for pair in ignore or []]
+        self.ignore = [(pair,) if isinstance(pair, str) else tuple(pair) for pair in ignore or []]
         for pair in self.ignore:
             if len(pair) != 2 or any(name not in self.bodies for name in pair):
-                raise UsageError(f"ignore: {pair!r} is no pair of bodies; there are {sorted(self.bodies)}")
+                raise UsageError(f"ignore: expected a pair of bodies of {sorted(self.bodies)}, found {pair!r}")
         if vertex_count is not None:
             self._require_vertices(vertex_count)
 
@@ -80,9 +80,9 @@ class CollisionMesh:
         named = [*self._cells().items(), *((f"bodies[{name!r}]", of) for name, of in self.bodies.items())]
         for name, cells in named:
             if cells.size and cells.max() >= count:
-                raise InputError(f"{name}: there is no vertex {cells.max()}; there are {count}")
+                raise InputError(f"{name}: vertex {cells.max()} does not exist; expected 0 to {count - 1}")
         if self.vertex_count not in (None, count):
-            raise InputError(f"there are positions of {count} vertices; the mesh has {self.vertex_count}")
+            raise InputError(f"positions of {count} vertices; expected {self.vertex_count}, the mesh's vertex_count")
 
     def _consecutive_bodies(self, count):
         """(name, first vertex, vertices, first face, faces) of each body, if all bodies are such runs of both."""
@@ -104,7 +104,7 @@ class CollisionMesh:
         of = np.zeros(count, np.int64)
         for number, (name, vertices) in enumerate(self.bodies.items(), 1):
             if np.any(of[vertices]):
-                raise InputError(f"bodies[{name!r}]: vertex {vertices[of[vertices] > 0][0]} is of two bodies")
+                raise InputError(f"bodies[{name!r}]: vertex {vertices[of[vertices] > 0][0]} also belongs to another body; a vertex has one body")
             of[vertices] = number
         return of
 

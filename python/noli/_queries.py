@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import numbers
 from ._errors import InputError
-from ._words import KINDS, PAIRS, no_truth
+from ._options import whole
+from ._words import KINDS, PAIRS, POINTS, no_truth
 
-CORNERS = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
+CORNERS = {pair: sum(points) for pair, points in POINTS.items()}
 PLANAR = ("vertex_edge", "vertex_vertex")
 
 
@@ -71,7 +72,7 @@ def contacts(pair: str, x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True,
     begin, end = _points(pair, x_t0, "x_t0"), _points(pair, x_t1, "x_t1")
     if begin.shape != end.shape:
         raise InputError(f"x_t1: has the shape {end.shape}; expected that of x_t0, {begin.shape}")
-    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), begin, end, bool(times), int(threads)))
+    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), begin, end, bool(times), whole(threads, "threads", 0)))
 
 
 def vertex_face_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:

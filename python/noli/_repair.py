@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import tempfile
 from typing import NoReturn, Optional, Sequence, Tuple, Union
 
@@ -17,6 +18,16 @@ from ._arrays import indices, numbers
 from ._errors import InputError, NotProved, UsageError
 from ._frames import bodies_in_files, file_names, given_frames
 from ._mesh import CollisionMesh
+from ._options import (
+    ORDERS,
+    choice,
+    dimension_of,
+    distance,
+    refuse_options_of_files,
+    require_new,
+    time_limit_of,
+    whole,
+)
 from ._types import Bodies, Floats, Frames, Integers, Json, Mesh, Path, Progress
 from ._words import no_truth, progress_of
 
@@ -27,16 +38,16 @@ class Repaired:
     Attributes
     ----------
     verdict : str
-        "proved" or "no_contact", as ``noli.verify`` says of ``frames``; "cannot_be" where what is given leaves no way;
-        "undecided".
+        "proved" or "no_contact", as ``noli.verify`` says of ``frames``; "cannot_be": the first frame touches, or
+        fixed vertices meet; "undecided".
     frames : (frames, vertices, 3) float64
-        Those that were found; with frames inserted where straight lines between two would touch.
+        The new frames. Frames are inserted where straight lines between two would touch.
     times : (frames,) float64
         In steps: the given frame k has the time k, as far as the repair got.
     """
 
-    def __init__(self, repair: _core.Repair, frames: Floats, times: Floats) -> None:
-        self._repair, self.frames, self.times = repair, frames, times
+    def __init__(self, repair: _core.Repair, frames: Floats, times: Floats, *, kept: bool) -> None:
+        self._repair, self.frames, self.times, self._kept = repair, frames, times, kept
         self._json: Json = json.loads(repair.json())
         self.verdict: str = self._json["verdict"]
 
@@ -60,7 +71,8 @@ class Repaired:
 
     def text(self) -> str:
         """What ``noli repair`` prints."""
-        return self._repair.text()
+        text = self._repair.text()
+        return text if self._kept else re.sub(r" Times of the frames: [^\n]*", "", text)
 
     def __str__(self):
         return self.text()
@@ -123,22 +135,35 @@ def repair(
     ------
     InputError, UsageError, OSError
     """
-    options: Json = {"restitution": float(restitution), "friction": float(friction), "spread": int(spread)}
-    options.update(only_new=bool(only_new), points=bool(points), check=bool(check), threads=int(threads))
-    options.update(force=bool(force), resume=bool(resume))
+    options: Json = {
+        "restitution": float(restitution),
+        "friction": distance(friction, "friction"),
+        "spread": whole(spread, "spread", 0, 1_000_000),
+        "only_new": bool(only_new),
+        "points": bool(points),
+        "check": bool(check),
+        "threads": whole(threads, "threads", 0),
+        "force": bool(force),
+        "resume": bool(resume),
+        **dimension_of(dimension),
+        **time_limit_of(time_limit),
+    }
+    if not 0 <= options["restitution"] <= 1:
+        raise UsageError(f"restitution: expected a number from 0 to 1, found {restitution!r}")
     if thickness is not None:
         options["thickness"] = float(thickness)
-    if dimension is not None:
-        options["dimension"] = int(dimension)
+        if not 0 < options["thickness"] < float("inf"):
+            raise UsageError(f"thickness: expected a positive distance, found {thickness!r}")
     if proof is not None:
+        require_new(proof, force)
         options["proof"] = os.fspath(proof)
-    if time_limit is not None:
-        options["time_limit"] = min(float(time_limit), 1e9)
     if resume and output is None:
-        raise UsageError("resume: goes on with frames in files; expected output=")
+        raise UsageError("resume: needs output=, the pattern of the earlier call")
     names = file_names(frames)
     given = given_frames(frames, mesh) if names is None else names
-    options.update(order=order, bodies=bodies_in_files(frames, obstacles))
+    if names is None:
+        refuse_options_of_files({"order": order, "ignore": ignore})
+    options.update(order=choice(order, "order", ORDERS), bodies=bodies_in_files(frames, obstacles))
     if ignore is not None:
         options["ignore"] = os.fspath(ignore)
     if fixed is not None:
@@ -150,7 +175,7 @@ def repair(
             options["masses"] = _masses(masses, scratch)
         pattern = os.fspath(output) if output is not None else os.path.join(scratch, "frame_%06d.ply")
         done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, told)
-        return Repaired(done, *_read(json.loads(done.json())))
+        return Repaired(done, *_read(json.loads(done.json())), kept=output is not None)
 
 
 def read_frames(frames: Union[Path, Sequence[Path]]) -> Tuple[Floats, CollisionMesh]:

@@ -10,6 +10,7 @@ from typing import Any, List, NoReturn, Optional, Union
 
 from . import _core
 from ._errors import NotProved
+from ._options import distance, time_limit_of, whole
 from ._types import Floats, Json, Path
 from ._words import no_truth
 
@@ -159,12 +160,18 @@ def simulate(
     InputError, UsageError, OSError
         When the first window is asked for.
     """
-    options: Json = {"short": short, "resume": resume, "force": force, "prove": prove, "past_duration": past_duration}
-    options.update(ignore_space=ignore_space, threads=int(threads))
+    options: Json = {
+        "short": bool(short),
+        "resume": bool(resume),
+        "force": bool(force),
+        "prove": bool(prove),
+        "past_duration": bool(past_duration),
+        "ignore_space": bool(ignore_space),
+        "threads": whole(threads, "threads", 0),
+        **time_limit_of(time_limit),
+    }
     if until is not None:
-        options["until"] = float(until)
-    if time_limit is not None:
-        options["time_limit"] = min(float(time_limit), 1e9)
+        options["until"] = distance(until, "until")
     return Simulation(scene, run, options)
 
 

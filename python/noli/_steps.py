@@ -12,6 +12,7 @@ from . import _core
 from ._arrays import positions
 from ._errors import Contact, InputError
 from ._mesh import as_mesh
+from ._options import dimension_of, whole
 from ._types import Features, Floats, Integers, Mesh
 from ._verify import CONTACTS
 from ._words import KINDS, PAIRS, POINTS, no_truth
@@ -182,7 +183,9 @@ def largest_min_distance(
     mesh meets itself; None if there are no two features to compare. Raises InputError.
     """
     there, _, cells = _step(x, x, mesh)
-    found = _steps_of(cells, there, there, dimension, False, threads).largest_distance(there, int(ring))
+    if cells.cell_count < 2:
+        return None
+    found = _steps_of(cells, there, there, dimension, False, threads).largest_distance(there, whole(ring, "ring", 1, 255))
     return None if found is None else LeastDistance(*found)
 
 
@@ -194,7 +197,7 @@ class Certifier:
                 certifier.step(x)          # raises noli.Contact with .time and .pairs
 
     After a Contact the certifier is where it was, so that another, shorter step can be tried. ``x`` is where it is,
-    ``steps`` how many were free. Parameters as for ``time_of_impact``. Raises InputError; Contact for an x0 that touches
+    ``steps`` how many were free. Positions (vertices, 3) are decided in three dimensions unless ``dimension`` is 2. Raises InputError; Contact for an x0 that touches
     itself.
     """
 
@@ -204,8 +207,9 @@ class Certifier:
         self.x, self.mesh = positions(x0, "x0").copy(), as_mesh(mesh)
         self.mesh._require_vertices(len(self.x))
         self.steps = 0
-        self._dimension, self._threads, self._reports = dimension, threads, max_reports
-        found = self_intersections(self.x, self.mesh, dimension=dimension, threads=threads, max_reports=max_reports)
+        self._dimension = dimension or self.x.shape[1]  # a step may leave the plane of those before it
+        self._threads, self._reports = threads, max_reports
+        found = self_intersections(self.x, self.mesh, dimension=self._dimension, threads=threads, max_reports=max_reports)
         if found.count:
             raise Contact(f"x0: {found.count} pairs of cells intersect", found, None, np.empty(0, CONTACTS))
         self._decide: Any = None
@@ -224,7 +228,7 @@ class Certifier:
         if self._decide is None:
             self._decide = _steps_of(self.mesh, self.x, there, self._dimension, False, self._threads, self._reports)
         touches = self._decide.step(self.x, there)
-        impact = Impact(touches, self._decide.first())
+        impact = Impact(touches, None if self._decide.intersection_count() else self._decide.first())
         if touches:
             count = self._decide.contact_count()
             text = f"step {self.steps + 1}: {count} pairs of features touch, first at t = {impact.time}"
@@ -248,8 +252,9 @@ def _step(x_t0, x_t1, mesh):
 
 
 def _steps_of(mesh, x_t0, x_t1, dimension, at_rest, threads, max_reports=100):
-    if dimension not in (None, 2, 3):
-        raise InputError(f"dimension: expected 2 or 3, found {dimension}")
+    dimension_of(dimension)
     flat = all(x.shape[1] == 2 or (len(x) > 0 and np.all(x[:, 2] == x[0, 2])) for x in (x_t0, x_t1))
     dimension = dimension or (2 if flat else 3)
-    return _core.Steps(mesh, len(x_t0), dimension, at_rest, int(threads), int(max_reports))
+    return _core.Steps(
+        mesh, len(x_t0), dimension, at_rest, whole(threads, "threads", 0), whole(max_reports, "max_reports", 0)
+    )

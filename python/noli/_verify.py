@@ -14,7 +14,18 @@ from ._errors import Contact, NotProved, UsageError
 from ._frames import bodies_in_files, file_names, given_frames
 from ._mesh import CollisionMesh
 from ._types import Bodies, Features, Frames, Integers, Json, Mesh, Names, Path, Progress
-from ._words import KINDS, PAIRS, no_truth, progress_of, require_new
+from ._options import (
+    ORDERS,
+    choice,
+    dimension_of,
+    distance,
+    refuse_options_of_files,
+    require_new,
+    time_limit_of,
+    whole,
+    words,
+)
+from ._words import KINDS, PAIRS, no_truth, progress_of
 
 CONTACTS = np.dtype(
     [
@@ -128,7 +139,7 @@ class Result:
 
     def faces_in_contact(self, step: int) -> Integers:
         """Numbers of the faces in listed contacts of a step (from 1), ascending."""
-        return self._outcome.faces_in_contact(step)
+        return self._outcome.faces_in_contact(whole(step, "step", 1))
 
     @property
     def statement(self) -> Json:
@@ -182,7 +193,7 @@ class Result:
         if not os.fspath(file).endswith(ending):
             raise UsageError(f"{os.fspath(file)}: expected a name that ends in {ending}")
         require_new(file, force)
-        self._outcome.write_contact(os.fspath(file), int(number))
+        self._outcome.write_contact(os.fspath(file), whole(number, "number", 0))
 
     def plot(self, *, number: int = 0, backend: Optional[str] = None) -> Any:
         """Draws a contact with "matplotlib", "vedo" or "polyscope"; default: the first of these that is installed.
@@ -192,7 +203,7 @@ class Result:
         """
         from ._pictures import plot
 
-        return plot(self._outcome.contact_frame(int(number)), backend)
+        return plot(self._outcome.contact_frame(whole(number, "number", 0)), backend)
 
     def text(self, *, details: bool = False) -> str:
         """What ``noli verify`` prints; with ``details``, as with --verbose."""
@@ -306,8 +317,8 @@ def verify(
     """
     options: Json = {
         "check": bool(check),
-        "min_distance": float(min_distance),
-        "ring": int(ring),
+        "min_distance": distance(min_distance, "min_distance"),
+        "ring": whole(ring, "ring", 1, 255),
         "only_new": bool(only_new),
         "at_rest": bool(at_rest),
         "strict": bool(strict),
@@ -315,43 +326,29 @@ def verify(
         "merge_identical": bool(merge_identical),
         "keep_going": bool(keep_going),
         "first_only": bool(first_only),
-        "max_reports": int(max_reports),
-        "threads": int(threads),
+        "max_reports": whole(max_reports, "max_reports", 0),
+        "threads": whole(threads, "threads", 0),
         "reproduce": bool(reproduce),
+        **dimension_of(dimension),
+        **time_limit_of(time_limit),
     }
-    if not np.isfinite(min_distance) or min_distance < 0:
-        raise UsageError(f"min_distance: expected a distance, found {min_distance}")
-    if not 1 <= int(ring) <= 255:
-        raise UsageError(f"ring: expected 1 to 255, found {ring}")
-    if dimension not in (None, 2, 3):
-        raise UsageError(f"dimension: expected 2 or 3, found {dimension}")
-    if max_reports < 0:
-        raise UsageError(f"max_reports: expected 0 or more, found {max_reports}")
-    if time_limit is not None and not time_limit > 0:
-        raise UsageError(f"time_limit: expected seconds, found {time_limit}")
-    if dimension is not None:
-        options["dimension"] = int(dimension)
-    if time_limit is not None:
-        options["time_limit"] = min(float(time_limit), 1e9)
     if proof is not None:
         require_new(proof, force)
         options["proof"] = os.fspath(proof)
     bodies = bodies_in_files(frames, obstacles)
     names = file_names(frames)
+    of_files = {"order": order, "keys": words(keys), "polygons": polygons, "ignore": ignore, "scene_folder": scene_folder}
     if names is None:
+        refuse_options_of_files(of_files)
         given = given_frames(frames, mesh)
         with progress_of(progress) as told:
             return Result(_core.Outcome(given, given.mesh, options, told), given.mesh)
     if mesh is not None:
         raise UsageError("mesh: frames in files have their own; expected none")
-    if order not in ("checked", "natural", "given"):
-        raise UsageError(f'order: expected "checked", "natural" or "given", found {order!r}')
-    if polygons not in ("fan", "refuse"):
-        raise UsageError(f'polygons: expected "fan" or "refuse", found {polygons!r}')
-    options["order"] = order
-    options["keys"] = list(keys)
+    options["order"] = choice(order, "order", ORDERS)
+    options["keys"] = words(keys)
     options["bodies"] = bodies
-    if polygons == "refuse":
+    if choice(polygons, "polygons", ("fan", "refuse")) == "refuse":
         options["refuse_polygons"] = True
     if ignore is not None:
         options["ignore"] = os.fspath(ignore)

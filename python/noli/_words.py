@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several modules say or ask alike."""
+"""Names that several modules share, and the progress bar."""
 
 from __future__ import annotations
 
 import contextlib
-import os
 from typing import NoReturn
 
 import numpy as np
-
-from ._errors import UsageError
 
 KINDS = np.array(["apart", "touching", "crossing", "persistent"])
 PAIRS = np.array(["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"])
@@ -17,14 +14,8 @@ POINTS = {"vertex_face": (1, 3), "edge_edge": (2, 2), "vertex_edge": (1, 2), "ve
 
 
 def no_truth(self: object) -> NoReturn:
-    """Results are read either way round as a bool, so they are none."""
+    """Raises TypeError: `if result:` could mean that something touches, or that nothing does."""
     raise TypeError(f"a {type(self).__name__} is neither true nor false; ask for its verdict or its numbers")
-
-
-def require_new(file, force):
-    """Raises UsageError if a file exists that may not be replaced."""
-    if os.path.lexists(file) and not force:
-        raise UsageError(f"{os.fspath(file)} exists already; choose another name, or pass force=True")
 
 
 @contextlib.contextmanager

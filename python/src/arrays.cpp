@@ -43,7 +43,6 @@ PositionArray::PositionArray(py::array array)
     throw std::logic_error("an array of positions of another type or shape");
   }
   if (dimensions == 3) {
-    frames_ = static_cast<std::size_t>(array_.shape(0));
     frame_stride_ = array_.strides(0);
   }
   vertices_ = static_cast<std::size_t>(array_.shape(dimensions - 2));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Arrays of numpy, and what they are here. Precondition of all functions: the interpreter's lock, except where they say
-// otherwise.
+// Converts numpy arrays to Noli's types and back. Callers hold the interpreter's lock (GIL), except where a function
+// says otherwise.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -24,17 +24,13 @@ class PositionArray {
   /// Keeps the array. Precondition: its type and shape.
   explicit PositionArray(pybind11::array array);
 
-  std::size_t vertices() const { return vertices_; }
-  /// Of a three-dimensional array; 1 otherwise.
-  std::size_t frames() const { return frames_; }
-  const char* numbers() const { return single_ ? "float32" : "float64"; }
   /// Copies one frame; two coordinates get z = 0. Needs no lock.
   std::vector<Position> frame(std::size_t k) const;
 
  private:
   pybind11::array array_;
   const char* data_;
-  std::size_t frames_ = 1, vertices_ = 0;
+  std::size_t vertices_ = 0;
   int coordinates_ = 3;
   bool single_ = false;
   pybind11::ssize_t frame_stride_ = 0, vertex_stride_ = 0, coordinate_stride_ = 0;

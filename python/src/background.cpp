@@ -94,6 +94,11 @@ void Background::end() {
   changed_.notify_all();
 }
 
+std::unique_lock<std::mutex> OneAtATime::enter() {
+  const py::gil_scoped_release unlocked;
+  return std::unique_lock(mutex_);
+}
+
 void in_background(const std::function<void(Background&)>& work) {
   std::atomic<bool> stop = false;
   in_background(stop, work);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work in a thread of its own, while the interpreter's thread hears signals and answers calls.
+// Runs work in a thread of its own, while the interpreter's thread handles Ctrl-C and calls of Python.
 //
 //   in_background([&](Background& background) { outcome = run_verify(request); });
 //
-// The thread of the work begins with the floating-point environment that the kernel expects (noli/contact.h), whatever
-// libraries of the interpreter's process have made of theirs: some of them flush subnormal numbers to 0.
+// That thread begins with the default floating-point environment, which the kernel expects (noli/contact.h). Libraries
+// in the interpreter's process may have changed theirs: some flush subnormal numbers to 0.
 #pragma once
 
 #include <atomic>
@@ -47,6 +47,16 @@ class Background {
   std::atomic<bool>& stop_;
   std::exception_ptr raised_;  ///< by the interpreter
   std::chrono::steady_clock::time_point last_;
+};
+
+/// Lets one thread at a time use an object.
+class OneAtATime {
+ public:
+  /// Waits without the interpreter's lock (GIL). Precondition: this thread has it.
+  std::unique_lock<std::mutex> enter();
+
+ private:
+  std::mutex mutex_;
 };
 
 /// Does the work, and returns when it has ended. Throws what a call or a signal raised, else what the work threw.

@@ -33,7 +33,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const Stopped& error) {
     raise("Stopped", error.what());
   } catch (const WriteError& error) {
-    raise("NoliError", error.what());
+    raise("WriteError", error.what());
   } catch (const HelperError& error) {
     raise("NoliError", error.what());
   } catch (const std::system_error& error) {

@@ -63,7 +63,7 @@ Frames::Frames(py::object given) : background_(std::make_shared<Background*>(nul
   frames->numbers = given.attr("numbers").cast<std::string>();
   const py::object array = given.attr("array");
   frames->frame = array.is_none() ? from_calls(given.attr("next"), background_) : from_array(array.cast<py::array>());
-  // Whoever lets go of it last may not have the lock.
+  // The last owner may be a worker thread without the GIL.
   given_ = std::shared_ptr<const GivenFrames>(frames.get(), [frames, given = std::move(given)](const void*) mutable {
     const py::gil_scoped_acquire locked;
     frames.reset();

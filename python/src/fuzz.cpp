@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "python/src/background.h"
 #include "python/src/bindings.h"
 #ifdef NOLI_WITH_AUDIT
 #include "audit/ccd/library_answers.h"
@@ -55,15 +56,17 @@ py::tuple adversarial_queries(int pair, std::uint64_t seed, std::uint64_t round,
   std::vector<std::string> names;
   Points x_t0({count, py::ssize_t{4}, py::ssize_t{3}}), x_t1({count, py::ssize_t{4}, py::ssize_t{3}});
   double *begin = x_t0.mutable_data(), *end = x_t1.mutable_data();
-  for (std::size_t g = 0; g < generators.size(); ++g) {
-    audit::Random random(seed, round * generators.size() + g);
-    names.push_back(generators[g]->name());
-    for (std::size_t i = 0; i < each; ++i, begin += 12, end += 12) {
-      const AnyQuery query = (*generators[g])(random).query;
-      put_points(query.x_t0, begin);
-      put_points(query.x_t1, end);
+  in_background([&](Background&) {
+    for (std::size_t g = 0; g < generators.size(); ++g) {
+      audit::Random random(seed, round * generators.size() + g);
+      names.push_back(generators[g]->name());
+      for (std::size_t i = 0; i < each; ++i, begin += 12, end += 12) {
+        const AnyQuery query = (*generators[g])(random).query;
+        put_points(query.x_t0, begin);
+        put_points(query.x_t1, end);
+      }
     }
-  }
+  });
   return py::make_tuple(names, x_t0, x_t1);
 }
 

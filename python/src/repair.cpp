@@ -76,6 +76,9 @@ class Repair {
       request_.stop = background.stop();
       request_.progress = progress_to(progress, background);
       outcome_ = run_repair(request_);
+      for (FrameFacts& facts : outcome_.inputs) {
+        if (given) facts.file = "frames";
+      }
     });
     request_.stop = nullptr;
     request_.progress = {};

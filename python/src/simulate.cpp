@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <noli/errors.h>
 #include <noli/simulate.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -14,6 +15,7 @@
 
 #include "certify/runs/run_series_reader.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/bindings.h"
 #include "python/src/options.h"
 #include "report/documents.h"
@@ -69,6 +71,7 @@ class Simulation {
 
   /// The next window, or None behind the last. Throws what the simulation threw.
   py::object next() {
+    const auto alone = one_at_a_time_.enter();
     const std::optional<SeriesRow> row = wait_for_row();
     if (!row) return py::none();
     std::optional<RunWindow> window;
@@ -92,23 +95,29 @@ class Simulation {
   void close() {
     stop_ = true;
     changed_.notify_all();
+    const auto alone = one_at_a_time_.enter();
     const py::gil_scoped_release unlocked;
     if (thread_.joinable()) thread_.join();
   }
 
   /// Once it has ended.
   std::string json() const {
-    if (!outcome_) return "null";
+    if (!has_outcome()) return "null";
     return to_text(report::document("simulate", report::simulate_json(request_, *outcome_)));
   }
   std::string text() const {
-    if (!outcome_) return "";
+    if (!has_outcome()) return "";
     report::Answer answer = report::simulate_answer(report::simulate_json(request_, *outcome_), request_, *outcome_);
     answer.next.clear();  // is about options of the command
     return answer.words_above(false) + answer.last_line();
   }
 
  private:
+  bool has_outcome() const {
+    const std::lock_guard lock(mutex_);
+    return ended_ && outcome_;
+  }
+
   void work() {
     std::fesetenv(FE_DFL_ENV);
     try {
@@ -147,20 +156,22 @@ class Simulation {
     return row;
   }
 
-  /// The window that ends then. Those before it were there when a run was resumed.
+  /// The window that ends then, which has been committed. Those before it were there when a run was resumed.
   RunWindow read_up_to(double time) {
     if (!reader_) reader_.emplace(request_.run);
-    while (true) {
-      reader_->look_again();
-      if (auto window = reader_->next_window(); window && window->end >= time) return *std::move(window);
+    reader_->look_again();
+    while (auto window = reader_->next_window()) {
+      if (window->end >= time) return *std::move(window);
     }
+    throw InputError(request_.run.string(), "", "has fewer windows than were committed; expected nobody else to write");
   }
 
   SimulateRequest request_;
   std::optional<SimulateOutcome> outcome_;
   std::optional<SeriesReader> reader_;
   std::atomic<bool> stop_ = false;
-  std::mutex mutex_;
+  OneAtATime one_at_a_time_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SeriesRow> row_;  ///< committed, and not asked for yet
   bool ended_ = false;

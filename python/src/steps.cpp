@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -62,9 +63,13 @@ class Steps {
 
   /// Whether it touches; then first() and the lists say what.
   bool step(const py::array& x_t0, const py::array& x_t1) {
+    const auto alone = one_at_a_time_.enter();
     x_t0_ = finite(x_t0);
     x_t1_ = finite(x_t1);
-    decide();
+    in_background(stop_, [this](Background&) {
+      decide();
+      place_first();
+    });
     return result_.touches();
   }
 
@@ -74,19 +79,14 @@ class Steps {
   py::object first() const {
     if (!result_.first) return py::none();
     const FirstInStep& first = *result_.first;
-    const std::size_t size = point_count(first.contact.pair);
-    const std::vector<VertexId> vertices(first.contact.vertices.begin(),
-                                         first.contact.vertices.begin() + static_cast<std::ptrdiff_t>(size));
-    std::array<Position, 4> x{};
-    for (std::size_t i = 0; i < size; ++i) {
-      x[i] = sample_between(x_t0_[vertices[i]], x_t1_[vertices[i]], first.time);
-    }
+    const auto size = static_cast<std::ptrdiff_t>(point_count(first.contact.pair));
+    const std::vector<VertexId> vertices(first.contact.vertices.begin(), first.contact.vertices.begin() + size);
     py::dict found;
     found["pair"] = static_cast<int>(first.contact.pair);
     found["kind"] = static_cast<int>(first.kind);
     found["time"] = first.time;
     found["vertices"] = vertices;
-    found["point"] = meeting_point(first.contact.pair, options_.dimension, std::span<const Position>(x.data(), size));
+    found["point"] = point_;
     return found;
   }
 
@@ -122,29 +122,28 @@ class Steps {
   /// A share of the step, the positions there as x_t1 has numbers, and whether straight lines from x_t0 to those were
   /// decided to touch nothing: always, unless x_t0 touches itself.
   py::tuple free_step(const py::array& x_t0, const py::array& x_t1, double safety) {
+    const auto alone = one_at_a_time_.enter();
     const bool single = x_t1.dtype().is(py::dtype::of<float>());
     const std::vector<Position> target = finite(x_t1);
     x_t0_ = finite(x_t0);
     x_t1_ = target;
     double share = 1;
-    decide();
-    while (result_.touches() && share > 0) {
-      share = share == 1 && result_.first ? safety * result_.first->time : share / 2;
-      if (share < least_share || result_.initial_intersections > 0) share = 0;
-      for (std::size_t v = 0; v < target.size(); ++v) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const double from = x_t0_[v][axis], x = from + share * (target[v][axis] - from);
-          x_t1_[v][axis] = share == 0 ? from : single ? static_cast<double>(static_cast<float>(x)) : x;
-        }
-      }
+    in_background(stop_, [&](Background&) {
       decide();
-    }
+      while (result_.touches() && share > 0 && !stop_) {
+        share = share == 1 && result_.first ? safety * result_.first->time : share / 2;
+        if (share < least_share || result_.initial_intersections > 0) share = 0;
+        go_to(target, share, single);
+        decide();
+      }
+    });
     return py::make_tuple(share, array_of(x_t1_), !result_.touches());
   }
 
   /// The largest least distance at x: (allowed, limit), or None if there are no two features to compare. 0 if it
   /// intersects itself.
   py::object largest_distance(const py::array& x, std::uint32_t ring) {
+    const auto alone = one_at_a_time_.enter();
     x_t0_ = x_t1_ = finite(x);
     std::optional<LargestDistance> found;
     in_background(stop_, [&](Background&) {
@@ -167,21 +166,41 @@ class Steps {
  private:
   static constexpr double least_share = 0x1p-60;
 
-  void decide() {
-    in_background(stop_, [this](Background&) { result_ = verifier_->step(x_t0_, x_t1_); });
+  void decide() { result_ = verifier_->step(x_t0_, x_t1_); }
+
+  /// Where the first contact is, if there is one.
+  void place_first() {
+    if (!result_.first) return;
+    const FirstInStep& first = *result_.first;
+    const std::size_t size = point_count(first.contact.pair);
+    std::array<Position, 4> x{};
+    for (std::size_t i = 0; i < size; ++i) {
+      const VertexId v = first.contact.vertices[i];
+      x[i] = sample_between(x_t0_[v], x_t1_[v], first.time);
+    }
+    point_ = meeting_point(first.contact.pair, options_.dimension, std::span<const Position>(x.data(), size));
+  }
+
+  /// Puts x_t1 on the way to the target, rounded to single precision if that is what the target has.
+  void go_to(const std::vector<Position>& target, double share, bool single) {
+    for (std::size_t v = 0; v < target.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double from = x_t0_[v][axis], x = from + share * (target[v][axis] - from);
+        x_t1_[v][axis] = share == 0 ? from : single ? static_cast<double>(static_cast<float>(x)) : x;
+      }
+    }
   }
 
   /// Greater than any distance in x.
   double extent() const {
     double sum = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto [least, greatest] = std::ranges::minmax_element(
-          x_t0_, [axis](const Position& a, const Position& b) { return a[axis] < b[axis]; });
-      sum += (*greatest)[axis] - (*least)[axis];
+    for (const Position& x : x_t0_) {
+      for (std::size_t axis = 0; axis < 3; ++axis) sum = std::max(sum, std::abs(x[axis]));
     }
-    return 2 * sum;
+    return std::min(8 * sum, std::numeric_limits<double>::max() / 4);
   }
 
+  OneAtATime one_at_a_time_;
   Mesh mesh_;
   SequenceOptions options_;
   std::unique_ptr<const Groups> groups_;
@@ -189,6 +208,7 @@ class Steps {
   std::optional<SequenceVerifier> verifier_;
   std::vector<Position> x_t0_, x_t1_;
   StepResult result_;
+  Position point_{};  ///< of its first contact
 };
 
 }  // namespace

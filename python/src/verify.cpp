@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <noli/errors.h>
-#include <noli/version.h>
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/claim.h"
 #include "certify/proofs/proof_route.h"
@@ -54,7 +53,6 @@ void put_options(const py::dict& options, VerifyRequest& request) {
   put(options, "reproduce", request.reproduce);
   put(options, "scene_folder", request.scene_folder);
   put(options, "proof", request.proof);
-  put(options, "trajectory", request.trajectory);
   put(options, "check", request.check);
   put(options, "keys", request.reading.keys);
   if (options.contains("refuse_polygons")) request.reading.polygons = PolygonRule::refuse;
@@ -138,8 +136,9 @@ class Outcome {
 
   /// A page, as `noli report` writes it.
   void report(const std::filesystem::path& file, const std::string& title) {
+    const auto alone = one_at_a_time_.enter();
     in_background([&](Background& background) {
-      if (given_) given_->call_through(&background);
+      read_again_through(background);
       replace_file(file, page(title));
     });
   }
@@ -150,7 +149,9 @@ class Outcome {
     const report::ShownContact shown = contact_shown(number);
     const Mesh& mesh = shown.frame.mesh;
     std::vector<std::int64_t> marks(mesh.cell_count(), 0);
-    for (const report::Mark& mark : shown.marks) marks[mark.cell] = mark.side + 1;
+    for (const report::Mark& mark : shown.marks) {
+      if (marks[mark.cell] == 0) marks[mark.cell] = mark.side + 1;
+    }
     py::dict found;
     found["positions"] = array_of(shown.frame.positions);
     found["faces"] = rows_of_cells(mesh.faces);
@@ -170,13 +171,20 @@ class Outcome {
   }
 
  private:
+  /// For frames in memory. Throws UsageError for those that cannot be read again.
+  void read_again_through(Background& background) {
+    if (!given_) return;
+    if (!given_->given()->again) {
+      throw UsageError("the frames came from a generator, which is spent; expected an array or a list");
+    }
+    given_->call_through(&background);
+  }
+
   report::ShownContact contact_shown(std::size_t number) {
+    const auto alone = one_at_a_time_.enter();
     std::optional<report::ShownContact> shown;
     in_background([&](Background& background) {
-      if (given_) given_->call_through(&background);
-      if (given_ && !given_->given()->again) {
-        throw UsageError("the frames came from a generator, which is spent; expected an array or a list");
-      }
+      read_again_through(background);
       shown = report::contact_in(Json::parse(json()), given_ ? given_->given() : nullptr, number);
     });
     return *std::move(shown);
@@ -232,6 +240,7 @@ class Outcome {
     }
   }
 
+  OneAtATime one_at_a_time_;
   VerifyRequest request_;
   VerifyOutcome outcome_;
   std::optional<Frames> given_;
@@ -244,7 +253,6 @@ void bind_verify(py::module_& core) {
   py::class_<Outcome>(core, "Outcome")
       .def(py::init<const py::object&, const py::object&, const py::dict&, const py::object&>())
       .def_property_readonly("verdict", [](const Outcome& self) { return std::string(name(self.outcome().verdict)); })
-      .def_property_readonly("interrupted", [](const Outcome& self) { return self.outcome().interrupted; })
       .def("json", &Outcome::json)
       .def("claim", &Outcome::claim)
       .def("text", &Outcome::text)

@@ -284,8 +284,8 @@ class BadInput(TestCase):
         self.refused("single frame", self.V[:1], self.F)
         self.refused("31 positions", [self.V[0], self.V[1][:-1]], self.F)
         self.refused("shape", [self.V[0], self.V[1][0]], self.F)
-        self.refused("there are none", [], self.F)
-        self.refused("gave none", iter([]), self.F)
+        self.refused("found none", [], self.F)
+        self.refused("yielded none", iter([]), self.F)
         self.refused("single frame", iter([self.V[0]]), self.F)
         self.refused("shape", self.V, np.arange(8))
         self.refused("shape", self.V, np.zeros((2, 4), int))
@@ -294,12 +294,12 @@ class BadInput(TestCase):
         self.refused("object", self.V.astype(object), self.F)
         self.refused("complex", self.V.astype(complex), self.F)
         self.refused("whole numbers", self.V, self.F.astype(float))
-        self.refused("no doubles", np.full((2, 3, 3), 2**53 + 1), [[0, 1, 2]])
+        self.refused("not exact", np.full((2, 3, 3), 2**53 + 1), [[0, 1, 2]])
         self.refused("masked", np.ma.masked_less(self.V, 0.5), self.F)
         self.refused("expected names", 5, self.F)
         self.assertEqual(noli.verify(np.arange(18).reshape(2, 3, 3), [[0, 1, 2]]).verdict, "proved")
         if np.finfo(np.longdouble).nmant > 52:
-            self.refused("no doubles", self.V.astype(np.longdouble) + np.longdouble(2) ** -60, self.F)
+            self.refused("not exact", self.V.astype(np.longdouble) + np.longdouble(2) ** -60, self.F)
 
     def test_numbers(self):
         for bad in (np.nan, np.inf, -np.inf):
@@ -309,15 +309,15 @@ class BadInput(TestCase):
             self.refused(r"frames\[2\]: vertex 5", iter(V), self.F)
 
     def test_vertices(self):
-        self.refused("no vertex 32", self.V, [[0, 1, 32]])
+        self.refused("vertex 32 does not exist", self.V, [[0, 1, 32]])
         self.refused("no vertex -1", self.V, [[0, 1, -1]])
         self.refused("no vertex 4294967296", self.V, np.array([[0, 1, 2**32]]))
-        self.refused("32 vertices; the mesh has 40", self.V, noli.CollisionMesh(self.F, vertex_count=40))
+        self.refused("positions of 32 vertices; expected 40", self.V, noli.CollisionMesh(self.F, vertex_count=40))
         self.refused("need a mesh", self.V, error=noli.UsageError)
         self.refused("no faces, edges or points", self.V, noli.CollisionMesh())
-        with self.assertRaisesRegex(noli.InputError, "two bodies"):
+        with self.assertRaisesRegex(noli.InputError, "also belongs to another body"):
             noli.verify(self.V, noli.CollisionMesh(self.F, bodies={"a": [0, 1], "b": [1]}, ignore=[("a", "b")]))
-        with self.assertRaisesRegex(noli.UsageError, "no pair of bodies"):
+        with self.assertRaisesRegex(noli.UsageError, "expected a pair of bodies"):
             noli.CollisionMesh(self.F, bodies={"a": [0]}, ignore=[("a", "c")])
         with self.assertRaisesRegex(noli.InputError, "two groups"):
             noli.verify(self.V, noli.CollisionMesh(self.F, bodies={"a": [0], "b": [1]}, ignore=[("a", "b")]))

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Options that several functions have: one check and one message for each."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any, Dict, List, Optional, Sequence
+
+from ._errors import UsageError
+
+ORDERS = ("checked", "natural", "given")
+LONGEST = 1e9  # seconds; more is no limit that anybody waits for
+
+
+def whole(value: Any, name: str, least: int, greatest: int = 2**31 - 1) -> int:
+    """Raises UsageError."""
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        number = least - 1
+    if number != value or not least <= number <= greatest:
+        raise UsageError(f"{name}: expected a whole number from {least} to {greatest}, found {value!r}")
+    return number
+
+
+def dimension_of(value: Optional[int]) -> Dict[str, int]:
+    """As an option; nothing for None."""
+    if value not in (None, 2, 3):
+        raise UsageError(f"dimension: expected 2 or 3, found {value!r}")
+    return {} if value is None else {"dimension": int(value)}
+
+
+def time_limit_of(value: Optional[float]) -> Dict[str, float]:
+    """As an option; nothing for None."""
+    if value is None:
+        return {}
+    if not value > 0:
+        raise UsageError(f"time_limit: expected seconds, found {value!r}")
+    return {"time_limit": min(float(value), LONGEST)}
+
+
+def distance(value: float, name: str) -> float:
+    """Finite and not negative. Raises UsageError."""
+    number = float(value)
+    if not math.isfinite(number) or number < 0:
+        raise UsageError(f"{name}: expected a finite number that is not negative, found {value!r}")
+    return number
+
+
+def choice(value: str, name: str, choices: Sequence[str]) -> str:
+    """Raises UsageError."""
+    if value not in choices:
+        raise UsageError(f"{name}: expected one of {', '.join(choices)}; found {value!r}")
+    return value
+
+
+def words(value: Any) -> List[str]:
+    """A list of texts; one text is a list of itself."""
+    return [value] if isinstance(value, str) else [str(word) for word in value]
+
+
+def refuse_options_of_files(options: Dict[str, Any]) -> None:
+    """Raises UsageError unless they are as they are by default: frames are in memory."""
+    defaults = {"order": "checked", "polygons": "fan"}
+    for name, value in options.items():
+        if value not in (None, [], defaults.get(name)):
+            raise UsageError(f"{name}: is for frames in files; expected none with arrays")
+
+
+def require_new(file: Any, force: bool) -> None:
+    """Raises UsageError if a file exists that may not be replaced."""
+    if os.path.lexists(file) and not force:
+        raise UsageError(f"{os.fspath(file)} exists already; choose another name, or pass force=True")
