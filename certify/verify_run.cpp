@@ -84,7 +84,9 @@ class SequenceVerification : private Verification {
         sequence_(*source_, motion_of(request)) {
     if (!request.reading.given) require_readable(request.frames);
     if (request.merge_identical && !source_->can_begin_again()) {
-      throw UsageError("--merge-identical: reads frames twice; expected files or arrays, found a pipe, a generator or standard input");
+      throw UsageError(
+          "--merge-identical: reads frames twice; expected files or arrays, found a pipe, a generator or standard "
+          "input");
     }
     outcome_.steps_total = sequence_.step_count().value_or(0);
   }
@@ -378,6 +380,10 @@ class SequenceVerification : private Verification {
 
   void put_notes() {
     outcome_.notes = request_.order_notes;
+    if (request_.reading.given && outcome_.unreferenced_vertices > 0) {
+      outcome_.notes.push_back(fmt::format("{} of the {} vertices belong to no cell, and are not looked at",
+                                           outcome_.unreferenced_vertices, outcome_.vertices));
+    }
     append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
     for (const std::string& note : source_->notes()) outcome_.notes.push_back(note);
     const bool contact =

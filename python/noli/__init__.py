@@ -6,8 +6,8 @@
     print(result)                       # PROVED  12 frames, 11 steps: nothing touches
 
 Units: positions and distances have the caller's unit of length; times are in [0, 1] of a step, in seconds for a run.
-Threads: any number of threads may call at once; work goes on without the interpreter's lock. Arrays that are being
-read must not be written to.
+Threads: any number of threads may call at once, and work goes on without the interpreter's lock (GIL). Calls on one
+object wait for each other. Arrays that are being read must not be written to.
 """
 
 from . import _programs as _programs
@@ -15,7 +15,7 @@ from ._audit import Audit, Finding, audit_ccd, fuzz_queries
 from ._check import Checked, check
 from ._core import commit as __commit__
 from ._core import version as __version__
-from ._errors import Contact, InputError, NoliError, NotProved, Stopped, UsageError
+from ._errors import Contact, InputError, NoliError, NotProved, Stopped, UsageError, WriteError
 from ._mesh import CollisionMesh
 from ._queries import (
     Contacts,
@@ -62,6 +62,7 @@ __all__ = [
     "Stopped",
     "UsageError",
     "Window",
+    "WriteError",
     "audit_ccd",
     "check",
     "collision_free_step",

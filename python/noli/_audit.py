@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import time as clock
-from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,12 +13,13 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import InputError, UsageError
 from ._queries import _points, contacts
-from ._options import LONGEST, distance, words
+from ._options import LONGEST, distance, require_new, whole, words
 from ._types import CcdFunction, Floats, Path
 from ._words import PAIRS, no_truth
 
 FAULTS = ("false_negative", "late", "bad_time", "false_positive", "early")
 ASKED = ("vertex_face", "edge_edge")
+KIND_ORDER = ("crossing", "touching", "persistent", "apart")  # what a function should not miss comes first
 
 
 class Finding:
@@ -33,8 +34,8 @@ class Finding:
         The query: (4, 3) each.
     kind, time
         The truth, as Contacts has it.
-    answer : float
-        What the function said: a time, infinite for no.
+    answer : float or bool
+        What the function said.
     generator : str
         What made the query; empty for a caller's own.
     index : int
@@ -47,15 +48,18 @@ class Finding:
     x_t1: Floats
     kind: str
     time: float
-    answer: float
+    answer: Union[float, bool]
     generator: str
     index: int
 
     def __init__(self, **members: Any) -> None:
         self.__dict__.update(members)
 
-    def save(self, file: Path) -> None:
-        """Writes a file that ``noli ccd`` and ``noli audit ccd`` read; its name has to have "vertex-face" or "edge-edge"."""
+    def save(self, file: Path, *, force: bool = False) -> None:
+        """Writes a file that ``noli ccd`` and ``noli audit ccd`` read. Its name has to contain "vertex-face" or "edge-edge"."""
+        if self.pair.replace("_", "-") not in os.path.basename(os.fspath(file)):
+            raise UsageError(f"{os.fspath(file)}: expected a name that contains {self.pair.replace('_', '-')}")
+        require_new(file, force)
         comments = [f"# {self.fault}: {self.answer}, the truth is {self.kind}, t = {self.time}"]
         number = int(np.flatnonzero(PAIRS == self.pair)[0])
         _core.save_query(os.fspath(file), number, self.x_t0, self.x_t1, self.kind != "apart", comments)
@@ -76,29 +80,52 @@ class Audit:
     faults : dict of name to int
         All that were found. "false_positive" and "early" count for the verdict only with ``exact=True``.
     findings : list of Finding
-        At most ``max_findings``.
+        At most ``max_findings``, missed crossings first.
     """
 
     def __init__(self, exact: bool, max_findings: int) -> None:
-        self.exact, self._most = exact, max_findings
+        self.exact, self._most = exact, whole(max_findings, "max_findings", 0)
         self.asked = self.contacts = 0
         self.faults: Dict[str, int] = dict.fromkeys(FAULTS, 0)
         self.findings: List[Finding] = []
+        self._alike: Dict[Tuple[str, ...], List[Finding]] = {}
 
     def __bool__(self) -> NoReturn:
         no_truth(self)
 
     def counts(self, fault: str) -> bool:
-        """Whether this fault is a finding."""
+        """Whether faults of this name count for the verdict."""
         return self.exact or fault not in ("false_positive", "early")
 
     @property
     def verdict(self) -> str:
         return "finding" if any(n for fault, n in self.faults.items() if self.counts(fault)) else "no_finding"
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         found = ", ".join(f"{n} {fault}" for fault, n in self.faults.items() if n)
         return f"<noli.Audit: {self.verdict}, {self.asked} queries, {self.contacts} contacts{': ' + found if found else ''}>"
+
+    def _room(self, *alike: str) -> int:
+        """For so many more findings that are alike."""
+        return self._most - len(self._alike.get(alike, ()))
+
+    def _keep(self, finding: Finding) -> None:
+        alike = (finding.pair, finding.fault, finding.kind, finding.generator)
+        self._alike.setdefault(alike, []).append(finding)
+
+    def _choose(self) -> None:
+        """Takes one of each sort in turn, until there are enough."""
+        seen: Dict[Tuple[str, ...], int] = {}
+        ranked = []
+        for (pair, fault, kind, _), found in self._alike.items():  # both pairs alternate
+            rank = seen[pair, fault, kind] = seen.get((pair, fault, kind), -1) + 1
+            ranked.append(((KIND_ORDER.index(kind), FAULTS.index(fault), rank), list(found)))
+        lists = [found for _, found in sorted(ranked, key=lambda item: item[0])]
+        while len(self.findings) < self._most and any(lists):
+            for found in lists:
+                if found and len(self.findings) < self._most:
+                    self.findings.append(found.pop(0))
+        self.findings.sort(key=lambda finding: KIND_ORDER.index(finding.kind))
 
 
 def audit_ccd(
@@ -132,10 +159,13 @@ def audit_ccd(
     InputError
         Queries, or answers, of another shape or type. What the function raises is passed on.
     """
+    if not hasattr(queries, "items"):
+        raise UsageError("queries: expected a dict of pair to (x_t0, x_t1)")
     audit = Audit(exact, max_findings)
     for pair, (x_t0, x_t1) in queries.items():
         _require_pair(pair)
         _ask(audit, function, pair, _points(pair, x_t0, "x_t0"), _points(pair, x_t1, "x_t1"))
+    audit._choose()
     return audit
 
 
@@ -173,8 +203,11 @@ def fuzz_queries(
                 x_t0, x_t1 = x_t0[: max(0, count - audit.asked)], x_t1[: max(0, count - audit.asked)]
             _ask(audit, function, pair, x_t0, x_t1, lambda row, names=names: names[row // each])
         round_number += 1
+    audit._choose()
     if shrink:
-        audit.findings = [_simpler(function, finding, audit, end) for finding in audit.findings]
+        simpler = [_simpler(function, finding, audit, end) for finding in audit.findings]
+        once = {(f.pair, f.fault, f.x_t0.tobytes(), f.x_t1.tobytes()): f for f in reversed(simpler)}
+        audit.findings = [f for f in simpler if once[f.pair, f.fault, f.x_t0.tobytes(), f.x_t1.tobytes()] is f]
     return audit
 
 
@@ -188,56 +221,56 @@ def _number(pair):
 
 
 def _times(function, pair, x_t0, x_t1):
-    """(hits, times, whether it gives times) of the function's answers."""
+    """(hits, times, answers) of the function; times is None where it answers yes or no."""
     answers = np.asarray(function(pair, x_t0, x_t1))
     if answers.shape != (len(x_t0),):
         raise InputError(f"the function's answers have the shape {answers.shape}; expected ({len(x_t0)},)")
     if answers.dtype == bool:
-        return answers, np.where(answers, np.nan, np.inf), False
-    if answers.dtype.kind not in "fiu":
-        raise InputError(f"the function's answers are {answers.dtype}; expected bool or times")
+        return answers, None, answers
+    if answers.dtype.kind != "f":
+        raise InputError(f"the function's answers are {answers.dtype}; expected bool, or times as floating-point numbers")
     times = answers.astype(np.float64)
-    return ~(np.isnan(times) | np.isposinf(times)), times, True
+    return ~(np.isnan(times) | np.isposinf(times)), times, times
 
 
 def _faults(function, pair, x_t0, x_t1, exact):
     """By query the number of its fault in FAULTS, or -1; the answers, and the truth."""
     truth = contacts(pair, x_t0, x_t1)
-    hits, times, knows_times = _times(function, pair, x_t0.copy(), x_t1.copy())
+    hits, times, answers = _times(function, pair, x_t0.copy(), x_t1.copy())
     fault = np.full(len(x_t0), -1)
     fault[~truth.touches & hits] = FAULTS.index("false_positive")
-    if knows_times:
+    if times is not None:
         both = truth.touches & hits
         fault[both & (times < truth.time)] = FAULTS.index("early")
         fault[both & (times > np.nextafter(truth.time, np.inf))] = FAULTS.index("late")
         fault[hits & ((times < 0) | (times > 1))] = FAULTS.index("bad_time")
     fault[truth.touches & ~hits] = FAULTS.index("false_negative")
-    return fault, times, truth
+    return fault, answers, truth
 
 
 def _ask(audit, function, pair, x_t0, x_t1, generator=None):
     if not len(x_t0):
         return
-    fault, times, truth = _faults(function, pair, x_t0, x_t1, audit.exact)
+    fault, answers, truth = _faults(function, pair, x_t0, x_t1, audit.exact)
     audit.asked += len(x_t0)
     audit.contacts += int(np.count_nonzero(truth.touches))
     for number, name in enumerate(FAULTS):
         rows = np.flatnonzero(fault == number)
         audit.faults[name] += len(rows)
-        if not audit.counts(name):
-            continue
-        alike = sum(finding.fault == name for finding in audit.findings)
-        for row in rows[: max(0, min(audit._most - len(audit.findings), -(-audit._most // 2) - alike))]:
-            audit.findings.append(
+        for row in rows if audit.counts(name) else ():
+            kind, made_by = str(truth.kind[row]), "" if generator is None else generator(int(row))
+            if audit._room(pair, name, kind, made_by) <= 0:
+                continue
+            audit._keep(
                 Finding(
                     fault=name,
                     pair=pair,
                     x_t0=x_t0[row].copy(),
                     x_t1=x_t1[row].copy(),
-                    kind=str(truth.kind[row]),
+                    kind=kind,
                     time=float(truth.time[row]),
-                    answer=float(times[row]),
-                    generator="" if generator is None else generator(int(row)),
+                    answer=answers[row].item(),
+                    generator=made_by,
                     index=int(row),
                 )
             )
@@ -254,6 +287,6 @@ def _simpler(function, finding, audit, end):
     if clock.monotonic() > end + 10:
         return finding
     x_t0, x_t1 = _core.simpler_query(_number(finding.pair), finding.x_t0, finding.x_t1, fails, 20_000)
-    _, times, truth = _faults(function, finding.pair, x_t0[np.newaxis], x_t1[np.newaxis], audit.exact)
-    members = dict(finding.__dict__, x_t0=x_t0, x_t1=x_t1, time=float(truth.time[0]), answer=float(times[0]))
+    _, answers, truth = _faults(function, finding.pair, x_t0[np.newaxis], x_t1[np.newaxis], audit.exact)
+    members = dict(finding.__dict__, x_t0=x_t0, x_t1=x_t1, time=float(truth.time[0]), answer=answers[0].item())
     return Finding(**members)

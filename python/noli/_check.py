@@ -84,7 +84,8 @@ def check(
         As for ``noli.verify``. A generator can be read once.
     require : list of str
         Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``). Default: frames in
-        motion, all steps, every cell, no merged vertices, nothing left out, no least distance.
+        motion, all steps, every cell, no merged vertices, no least distance, and nothing left out except what the mesh
+        ignores.
     claim : path or dict
         All fields at once: ``Result.claim``, or the file of ``noli verify --claim-out``.
     verified : bool

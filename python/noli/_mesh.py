@@ -51,7 +51,10 @@ class CollisionMesh:
         bodies: Optional[Mapping[str, ArrayLike]] = None,
         ignore: Optional[Iterable[Sequence[str]]] = None,
     ) -> None:
-        self.faces = indices(faces, 3, "faces")
+        try:
+            self.faces = indices(faces, 3, "faces")
+        except InputError as error:
+            raise InputError(f"{error}; expected triangles, by numbers of vertices from 0") from None
         self.edges = indices(edges, 2, "edges")
         self.points = indices(points, 1, "points")
         self.vertex_count = vertex_count
@@ -62,6 +65,7 @@ class CollisionMesh:
                 raise UsageError(f"ignore: expected a pair of bodies of {sorted(self.bodies)}, found {pair!r}")
         if vertex_count is not None:
             self._require_vertices(vertex_count)
+        self._require_whole_cells()
 
     @property
     def cell_count(self) -> int:
@@ -87,17 +91,14 @@ class CollisionMesh:
     def _consecutive_bodies(self, count):
         """(name, first vertex, vertices, first face, faces) of each body, if all bodies are such runs of both."""
         rows, order = [], sorted(self.bodies.items(), key=lambda item: item[1][0] if len(item[1]) else -1)
-        at = first_face = 0
         of_face = self._body_of(count)[self.faces[:, 0]] if len(self.faces) else np.empty(0, int)
         names = list(self.bodies)
         for name, vertices in order:
             faces = np.flatnonzero(of_face == names.index(name) + 1)
-            run = np.array_equal(vertices, np.arange(at, at + len(vertices)))
-            if not run or not np.array_equal(faces, np.arange(first_face, first_face + len(faces))):
+            if not len(vertices) or not _is_run(vertices) or not _is_run(faces):
                 return []
-            rows.append((name, at, len(vertices), first_face, len(faces)))
-            at, first_face = at + len(vertices), first_face + len(faces)
-        return rows if at == count else []
+            rows.append((name, int(vertices[0]), len(vertices), int(faces[0]) if len(faces) else 0, len(faces)))
+        return rows
 
     def _body_of(self, count):
         """By vertex, the number of its body from 1; 0: of none."""
@@ -107,6 +108,21 @@ class CollisionMesh:
                 raise InputError(f"bodies[{name!r}]: vertex {vertices[of[vertices] > 0][0]} also belongs to another body; a vertex has one body")
             of[vertices] = number
         return of
+
+    def _require_whole_cells(self):
+        """Raises InputError unless bodies are disjoint, and each cell is of one body or of none."""
+        highest = max((int(a.max()) for a in (*self._cells().values(), *self.bodies.values()) if a.size), default=-1)
+        if not self.bodies:
+            return
+        of, names = self._body_of(highest + 1), [None, *self.bodies]
+        for what, cells in self._cells().items():
+            if what == "points" or not len(cells):
+                continue
+            mixed = np.flatnonzero((of[cells] != of[cells[:, :1]]).any(axis=1))
+            if len(mixed):
+                row = mixed[0]
+                found = sorted({names[k] or "no body" for k in of[cells[row]]})
+                raise InputError(f"{what}: row {row} has vertices of {' and '.join(found)}; expected one body")
 
     def _groups(self, count, named):
         """The text of GROUPS.json (``noli verify --ignore``), or None."""
@@ -121,6 +137,11 @@ class CollisionMesh:
     def body_of_vertex(self, vertex: int) -> Optional[str]:
         """The name of the body that has a vertex, or None."""
         return next((name for name, vertices in self.bodies.items() if vertex in vertices), None)
+
+
+def _is_run(numbers):
+    """Whether whole numbers are consecutive and ascending."""
+    return len(numbers) == 0 or np.array_equal(numbers, np.arange(numbers[0], numbers[0] + len(numbers)))
 
 
 def _ranges(vertices):

@@ -32,11 +32,19 @@ def _colours(shown: Any) -> Any:
     return COLOURS[shown["marks"][: len(shown["faces"])]]
 
 
+def _radius(shown: Any) -> float:
+    """Of the part around the contact: four times the cells that meet."""
+    x, faces = shown["positions"], shown["faces"]
+    marked = x[faces[shown["marks"][: len(faces)] > 0]]
+    size = np.ptp(marked, axis=1).max() if len(marked) else np.ptp(x, axis=0).max()
+    return max(4 * float(size), 1e-300)
+
+
 def _matplotlib(shown: Any) -> Any:
-    from matplotlib.figure import Figure
+    from matplotlib import pyplot
     from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-    figure = Figure(figsize=(8, 6))
+    figure = pyplot.figure(figsize=(8, 6))
     axes = figure.add_subplot(projection="3d")
     x = shown["positions"]
     if len(shown["faces"]):
@@ -46,8 +54,8 @@ def _matplotlib(shown: Any) -> Any:
     if len(shown["edges"]):
         axes.add_collection3d(Line3DCollection(x[shown["edges"]], colors="black"))
     axes.scatter(*np.array(shown["point"])[:, np.newaxis], color="black", s=30, depthshade=False)
-    middle, half = (x.max(axis=0) + x.min(axis=0)) / 2, max(np.ptp(x, axis=0).max() / 2, 1e-300)
-    for axis, centre in zip("xyz", middle):
+    half = _radius(shown)
+    for axis, centre in zip("xyz", shown["point"]):
         getattr(axes, f"set_{axis}lim")(centre - half, centre + half)
     axes.set_title(f"step {shown['step']}, t = {shown['time']:.6g}")
     return figure

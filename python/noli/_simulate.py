@@ -64,7 +64,7 @@ class Simulation:
         self._scene_file: Any = None
         if isinstance(scene, dict):
             self._scene_file = tempfile.NamedTemporaryFile("w", suffix=".json")
-            json.dump(_with_whole_paths(scene), self._scene_file)
+            json.dump(_with_whole_paths(scene), self._scene_file, default=lambda array: array.tolist())
             self._scene_file.flush()
             file = self._scene_file.name
         else:

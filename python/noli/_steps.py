@@ -194,7 +194,7 @@ class Certifier:
 
         with noli.Certifier(mesh, x0) as certifier:
             for x in solver:
-                certifier.step(x)          # raises noli.Contact with .time and .pairs
+                certifier.step(x)          # raises noli.Contact with .time and .pairs (pair, vertices)
 
     After a Contact the certifier is where it was, so that another, shorter step can be tried. ``x`` is where it is,
     ``steps`` how many were free. Positions (vertices, 3) are decided in three dimensions unless ``dimension`` is 2. Raises InputError; Contact for an x0 that touches
@@ -213,6 +213,9 @@ class Certifier:
         if found.count:
             raise Contact(f"x0: {found.count} pairs of cells intersect", found, None, np.empty(0, CONTACTS))
         self._decide: Any = None
+
+    def __repr__(self) -> str:
+        return f"<noli.Certifier: {self.steps} free steps, {self.mesh!r}>"
 
     def __enter__(self) -> Certifier:
         return self

@@ -165,8 +165,8 @@ class Result:
         return json.loads(self._outcome.claim())
 
     def raise_unless_proved(self) -> Result:
-        """Returns this result if its verdict is "proved". Raises Contact, or NotProved."""
-        if self.verdict == "proved":
+        """Returns this result if its verdict is "proved", and not of an empty claim. Raises Contact, or NotProved."""
+        if self.verdict == "proved" and not self.claim["empty"]:
             return self
         text = self._outcome.text(False).splitlines()[-1]
         if self.verdict != "contact":
@@ -193,16 +193,23 @@ class Result:
         if not os.fspath(file).endswith(ending):
             raise UsageError(f"{os.fspath(file)}: expected a name that ends in {ending}")
         require_new(file, force)
+        self._require_listed(number)
         self._outcome.write_contact(os.fspath(file), whole(number, "number", 0))
+
+    def _require_listed(self, number: int) -> None:
+        listed = self.to_json()["reports"]["listed"]
+        if whole(number, "number", 0) > listed:
+            raise UsageError(f"number: {number} is beyond the {listed} listed contacts (max_reports)")
 
     def plot(self, *, number: int = 0, backend: Optional[str] = None) -> Any:
         """Draws a contact with "matplotlib", "vedo" or "polyscope"; default: the first of these that is installed.
 
-        Returns a figure of matplotlib, a Plotter of vedo, or the module polyscope, with the meshes in it: its ``show()``
-        shows them.
+        Returns a figure of matplotlib.pyplot, a Plotter of vedo, or the module polyscope, with the meshes in it: its
+        ``show()`` shows them.
         """
         from ._pictures import plot
 
+        self._require_listed(number)
         return plot(self._outcome.contact_frame(whole(number, "number", 0)), backend)
 
     def text(self, *, details: bool = False) -> str:
@@ -276,7 +283,7 @@ def verify(
     only_new : bool
         Leaves out pairs of cells that intersect in the first frame.
     at_rest : bool
-        Takes each frame by itself: does the mesh intersect itself?
+        Takes each frame by itself: does the mesh intersect itself? One frame, (vertices, 3), is enough.
     strict : bool
         Also compares features of one cell with each other.
     points : bool
@@ -295,8 +302,16 @@ def verify(
         0: all there are.
     time_limit : float, optional
         Seconds; what is not decided by then is "undecided".
-    order, keys, polygons, ignore, reproduce, scene_folder
-        For files, as ``noli verify`` has them.
+    order : "checked", "natural" or "given"
+        Of files. "checked": an error where they are given against the numbers in their names. "natural": by these numbers.
+    keys : names
+        Of the arrays of positions and faces in a .npz file, if they cannot be guessed.
+    polygons : "fan" or "refuse"
+        Polygons in files are cut into triangles, or are an error.
+    ignore : path
+        A file of groups whose cells are not compared (``noli verify --help``); for arrays, CollisionMesh has ``ignore``.
+    reproduce, scene_folder : bool, path
+        Integrates the windows of a run again that recorded frames alone; where its scene's file was.
     force : bool
         Replaces an existing proof.
     progress : callable, True or None
@@ -313,7 +328,7 @@ def verify(
     OSError
         A proof that cannot be written.
     KeyboardInterrupt
-        On Ctrl-C, within a tenth of a second.
+        On Ctrl-C.
     """
     options: Json = {
         "check": bool(check),
@@ -337,6 +352,10 @@ def verify(
         options["proof"] = os.fspath(proof)
     bodies = bodies_in_files(frames, obstacles)
     names = file_names(frames)
+    if names is not None and len(names) == 1 and names[0].endswith(".npy") and mesh is not None:
+        frames, names = np.load(names[0], mmap_mode="r"), None
+    if at_rest and isinstance(frames, np.ndarray) and frames.ndim == 2:
+        frames = frames[np.newaxis]
     of_files = {"order": order, "keys": words(keys), "polygons": polygons, "ignore": ignore, "scene_folder": scene_folder}
     if names is None:
         refuse_options_of_files(of_files)

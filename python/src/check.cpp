@@ -8,10 +8,13 @@
 
 #include <noli/errors.h>
 #include <noli/proof.h>
+#include "certify/groups.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/checker.h"
+#include "certify/proofs/claim.h"
+#include "certify/proofs/prove_frames.h"
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
@@ -35,6 +38,7 @@ class Check {
     checked_.asked = std::move(asked);
     if (py::hasattr(frames, "vertices")) {
       given_.emplace(frames);
+      ask_for_ignored(frames.attr("mesh"));
     } else {
       bodies_ = bodies_in_files(options, checked_.notes);
       name_files(frames.cast<std::vector<fs::path>>(), order_of(options));
@@ -53,6 +57,22 @@ class Check {
   }
 
  private:
+  /// What the mesh ignores is left out of the claim that is asked for, unless the words say what may be.
+  void ask_for_ignored(const py::object& mesh) {
+    const std::size_t vertices = given_->given()->mesh.vertex_count;
+    const auto ignored = ignored_groups_of(mesh, vertices, true);
+    if (!ignored || asks(checked_.asked, "excluded")) return;
+    const Groups groups = read_groups(ignored->file, vertices, names_of_frames(given_->given()->bodies));
+    const CellLabels labels = labels_of_frames(given_->given()->mesh, &groups.exclusions, {});
+    Claim claim;
+    claim.strict = asks(checked_.asked, "strict");
+    set_cells(claim, given_->given()->mesh, labels.of, labels.excluded);
+    for (const std::string& word : fields_beyond_default(claim)) {
+      const bool wanted = field_of(word) == "excluded" || field_of(word) == "cells";
+      if (wanted && (field_of(word) == "excluded" || !asks(checked_.asked, "cells"))) checked_.asked.push_back(word);
+    }
+  }
+
   void name_files(std::vector<fs::path> names, FrameOrder order) {
     if (!bodies_.empty()) {
       files_ = files_of(bodies_);

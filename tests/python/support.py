@@ -55,9 +55,6 @@ def comparable(result):
     """Without what names files, or is of the clock."""
     result = {key: value for key, value in result.items() if key not in ("inputs", "timing", "notes")}
     result["statement"] = {k: v for k, v in result["statement"].items() if k not in ("order", "notes")}
-    for first in [result["first"], *result["reported"]["contacts"]] if "reported" in result else [result["first"]]:
-        if first:
-            first.pop("frames", None)
     return result
 
 

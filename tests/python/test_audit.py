@@ -55,6 +55,19 @@ class Audit(TestCase):
         file = self.folder / "one-edge-edge.csv"
         finding.save(file)
         run_noli("ccd", file, expected=0)
+        with self.assertRaisesRegex(noli.UsageError, "exists already"):
+            finding.save(file)
+        with self.assertRaisesRegex(noli.UsageError, "edge-edge"):
+            finding.save(self.folder / "one.csv")
+
+    def test_findings_of_both_pairs_and_missed_crossings_first(self):
+        for most in (1, 5, 20):
+            found = noli.fuzz_queries(lambda pair, a, b: np.zeros(len(a), bool), count=3000, max_findings=most, shrink=False)
+            self.assertEqual(len(found.findings), most)
+            self.assertEqual(found.findings[0].kind, "crossing")
+            self.assertIs(found.findings[0].answer, False)
+            if most > 1:
+                self.assertEqual({finding.pair for finding in found.findings}, {"vertex_face", "edge_edge"})
 
     def test_a_callers_own_queries(self):
         x = np.random.default_rng(5).random((2, 200, 4, 3))
@@ -86,10 +99,15 @@ class Audit(TestCase):
         self.assertTrue(all(np.array_equal(a, b) for a, b in zip(asked[:half], asked[half:])))
 
     def test_bad_answers(self):
-        for answers in (lambda *_: True, lambda pair, a, b: np.zeros(3), lambda pair, a, b: np.full(len(a), "no")):
+        for answers in (lambda pair, a, b: np.zeros(len(a), int), lambda *_: True, lambda pair, a, b: np.zeros(3), lambda pair, a, b: np.full(len(a), "no")):
             with self.assertRaises(noli.InputError):
                 noli.fuzz_queries(answers, count=100)
         with self.assertRaises(ZeroDivisionError):
             noli.fuzz_queries(lambda *_: 1 / 0, count=100)
+        for wrong in ({}, {"count": 5, "pairs": []}, {"seconds": -1}, {"count": 5, "max_findings": -1}):
+            with self.assertRaises(noli.UsageError):
+                noli.fuzz_queries(exact, **wrong)
+        self.assertEqual(noli.fuzz_queries(exact, seconds=0).asked, 0)
+        self.assertEqual(noli.fuzz_queries(exact, count=5, pairs="edge_edge").asked, 5)
         with self.assertRaises(noli.UsageError):
-            noli.fuzz_queries(exact)
+            noli.audit_ccd(exact, (np.zeros((1, 4, 3)), np.zeros((1, 4, 3))))

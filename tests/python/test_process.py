@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a long-lived interpreter needs: no leaks, bounded memory, threads, Ctrl-C at any moment, its own arithmetic."""
 
-import ctypes
 import os
 import signal
 import subprocess
@@ -152,7 +151,7 @@ class Process(TestCase):
             import numpy as np, noli
             ctypes.CDLL({str(library)!r}).flush()
             tiny = np.array([4e-320])
-            assert (tiny * 0.5 + tiny * 0.5)[0] != 4e-320 or True
+            assert (tiny * 0.5)[0] == 0, "the processor does not flush subnormal numbers"
             x = np.array([[[4e-320, 0], [0, 4e-320]]] * 2000)
             found = noli.vertex_vertex_contact(x, x)
             assert not found.touches.any(), "subnormal numbers became 0"
@@ -160,4 +159,3 @@ class Process(TestCase):
             assert noli.verify([y, y], [[0, 1, 2], [3, 4, 5]]).verdict == "proved"
         """
         subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True)
-        self.assertTrue(ctypes.sizeof(ctypes.c_double) == 8)

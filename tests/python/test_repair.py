@@ -57,6 +57,20 @@ class Repair(TestCase):
         again = noli.repair(self.V, self.mesh, output=pattern, force=True)
         self.assertTrue(np.array_equal(again.frames, found.frames))
 
+    def test_resume(self):
+        pattern = self.folder / "f%03d.ply"
+        whole = noli.repair(self.V, self.mesh, output=pattern)
+        for part in (self.V, self.V + 0.0):
+            again = noli.repair(part, self.mesh, output=pattern, resume=True)
+            self.assertTrue(np.array_equal(again.frames, whole.frames))
+        with self.assertRaisesRegex(noli.InputError, "other frames"):
+            noli.repair(self.V * 2, self.mesh, output=pattern, resume=True)
+        with self.assertRaisesRegex(noli.UsageError, "output="):
+            noli.repair(self.V, self.mesh, resume=True)
+        self.assertEqual(whole.to_json()["inputs"][0]["file"], "frames")
+        self.assertIn("Times of the frames", str(whole))
+        self.assertNotIn("Times of the frames", str(noli.repair(self.V, self.mesh)))
+
     def test_of_files_and_generators(self):
         names = self.folder / "g%d.obj"
         found = noli.repair(iter(self.V), self.mesh, output=names)
@@ -73,8 +87,10 @@ class Repair(TestCase):
         with self.assertRaisesRegex(noli.UsageError, "no vertex 128"):
             noli.repair(self.V, self.mesh, fixed=[128])
         with self.assertRaises(noli.InputError):
-            noli.repair(self.V * np.inf, self.mesh)
+            noli.repair(np.full_like(self.V, np.inf), self.mesh)
         with self.assertRaises(noli.InputError):
             noli.repair(self.V, self.mesh, masses=np.zeros(128))
-        with self.assertRaises(noli.UsageError):
-            noli.repair(self.V, self.mesh, masses="heavy")
+        for wrong in ({"masses": "heavy"}, {"spread": -1}, {"dimension": 5}, {"restitution": 2}, {"friction": -1},
+                      {"thickness": 0}, {"order": "natural"}, {"ignore": "a.json"}, {"time_limit": -1}):
+            with self.assertRaises(noli.UsageError):
+                noli.repair(self.V, self.mesh, **wrong)

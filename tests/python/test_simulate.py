@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import shutil
+import threading
 
 import noli
 import numpy as np
@@ -60,6 +61,27 @@ class Simulate(TestCase):
         self.assertLessEqual(rest[0], 5)
         self.assertEqual(more.verdict, "no_contact")
         self.assertEqual((run / "trajectory.blocks").read_bytes(), (whole / "trajectory.blocks").read_bytes())
+
+    def test_threads_share_a_simulation(self):
+        simulation = noli.simulate(SCENE, self.folder / "run")
+        self.assertIn("going on", repr(simulation))
+        seen = []
+
+        def work():
+            seen.extend(window.index for window in simulation)
+            simulation.close()
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertLessEqual(len(seen), 5)
+        self.assertEqual(len(seen), len(set(seen)))
+        self.assertIn(simulation.verdict, ("no_contact", "undecided"))
+
+    def test_numpy_in_a_scene(self):
+        noli.simulate({**SCENE, "gravity": np.array([0, 0, -1.0])}, self.folder / "run").finish()
 
     def test_an_exception_in_the_loop_ends_it(self):
         run = self.folder / "run"

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+import threading
+
 import noli
 import numpy as np
 from support import TestCase, falling_sheet, grid
@@ -90,6 +92,45 @@ class Steps(TestCase):
         x = np.concatenate([self.V[0][:64], self.V[0][:64] + [0.01, 0.02, 0]])
         with self.assertRaises(noli.Contact):
             noli.Certifier(self.mesh, x)
+
+    def test_certifier_may_leave_the_plane_it_began_in(self):
+        x, faces = grid(4)
+        mesh = noli.CollisionMesh(faces)
+        certifier = noli.Certifier(mesh, x)
+        certifier.step(x + [0, 0, 1])
+        folded = x + [0, 0, 1]
+        folded[12:, 0] -= 0.5  # would overlap in the plane
+        folded[12:, 2] += 0.5
+        self.assertFalse(certifier.step(folded).touches)
+        with self.assertRaises(noli.Contact):
+            noli.Certifier(mesh, x, dimension=2).step(folded)
+
+    def test_threads_share_an_object(self):
+        certifier = noli.Certifier(self.mesh, self.V[0])
+        found = []
+
+        def work():
+            for _ in range(20):
+                try:
+                    certifier.step(self.V[4])
+                except noli.Contact as contact:
+                    found.append(contact.time)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [noli.time_of_impact(self.V[0], self.V[4], self.mesh).time] * 80)
+
+    def test_nothing_there(self):
+        self.assertIsNone(noli.largest_min_distance(np.empty((0, 3)), np.empty((0, 3), int)))
+        self.assertEqual(noli.self_intersections(np.empty((0, 3)), np.empty((0, 3), int)).count, 0)
+        huge = self.V[0] * 1e308
+        self.assertGreater(noli.largest_min_distance(huge, self.mesh).allowed, 0)
+        for wrong in ({"ring": -1}, {"ring": 1000}, {"threads": -1}, {"dimension": 5}):
+            with self.assertRaises(noli.UsageError):
+                noli.largest_min_distance(self.V[0], self.mesh, **wrong)
 
     def test_certifier_keeps_its_own_positions(self):
         x = self.V[0].copy()

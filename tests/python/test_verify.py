@@ -154,7 +154,7 @@ class Verify(TestCase):
             noli.verify(self.V[:4], mesh, proof=proof)
         for verified in (False, True):
             if verified and not os.path.exists(os.path.join(os.environ["NOLI_BUILD"], "app", "noli_check_verified")):
-                self.skipTest("there is no verified checker")
+                continue  # where there is no Coq
             self.assertEqual(noli.check(proof, self.V[:4], mesh, verified=verified).verdict, "accepted")
             self.assertEqual(noli.check(proof, iter(self.V[:4]), mesh, verified=verified).verdict, "accepted")
             self.assertEqual(noli.check(proof, self.V[:3], mesh, verified=verified).verdict, "rejected")
@@ -165,6 +165,31 @@ class Verify(TestCase):
         with self.assertRaisesRegex(noli.UsageError, "require"):
             noli.check(proof, self.V[:4], mesh, require=["nonsense=1"])
         self.assertIsInstance(noli.check(proof, self.V[:4], mesh).to_json()["claim"], dict)
+
+    def test_what_the_mesh_ignores_may_be_left_out_of_a_proof(self):
+        proof = self.folder / "ignored.noli"
+        mesh = noli.CollisionMesh(self.F, bodies=self.bodies, ignore=[("floor", "sheet")])
+        noli.verify(self.V, mesh, proof=proof).raise_unless_proved()
+        self.assertEqual(noli.check(proof, self.V, mesh).verdict, "accepted")
+        self.assertEqual(noli.check(proof, self.V, self.F).verdict, "rejected")
+        other = noli.CollisionMesh(self.F, bodies=self.bodies, ignore=[("floor", "floor")])
+        self.assertEqual(noli.check(proof, self.V, other).verdict, "rejected")
+
+    def test_empty_claims_are_no_proofs(self):
+        result = noli.verify(self.V, [[0, 1, 2]])
+        self.assertIn("empty", str(result))
+        with self.assertRaises(noli.NotProved):
+            result.raise_unless_proved()
+        self.assertIn("125 of the 128 vertices belong to no cell, and are not looked at", result.notes)
+
+    def test_bodies_that_do_not_cover_everything(self):
+        mesh = noli.CollisionMesh(self.F, bodies={"sheet": self.bodies["sheet"]})
+        self.assertEqual(noli.verify(self.V, mesh).first.bodies, ("", "sheet"))
+
+    def test_one_frame_at_rest(self):
+        self.assertEqual(noli.verify(self.V[0], self.F, at_rest=True).verdict, "proved")
+        np.save(self.folder / "V.npy", self.V)
+        self.assertEqual(noli.verify(self.folder / "V.npy", self.F).first.step, 4)
 
     def test_a_contact_has_a_witness(self):
         proof = self.folder / "contact.noli"
@@ -226,7 +251,7 @@ class Verify(TestCase):
             self.assertTrue((self.folder / "first.png").read_bytes().startswith(b"\x89PNG"))
         except noli.UsageError as error:
             self.assertIn("built without", str(error))
-        with self.assertRaisesRegex(noli.InputError, "lists 100 contacts"):
+        with self.assertRaisesRegex(noli.UsageError, "beyond the 100 listed contacts"):
             result.to_vtu(self.folder / "none.vtu", number=101)
         with self.assertRaisesRegex(noli.InputError, "no contact"):
             noli.verify(self.V[:4], self.F).to_vtu(self.folder / "none.vtu")
@@ -319,15 +344,42 @@ class BadInput(TestCase):
             noli.verify(self.V, noli.CollisionMesh(self.F, bodies={"a": [0, 1], "b": [1]}, ignore=[("a", "b")]))
         with self.assertRaisesRegex(noli.UsageError, "expected a pair of bodies"):
             noli.CollisionMesh(self.F, bodies={"a": [0]}, ignore=[("a", "c")])
-        with self.assertRaisesRegex(noli.InputError, "two groups"):
-            noli.verify(self.V, noli.CollisionMesh(self.F, bodies={"a": [0], "b": [1]}, ignore=[("a", "b")]))
+        with self.assertRaisesRegex(noli.InputError, "row 0 has vertices of a and no body"):
+            noli.CollisionMesh(self.F, bodies={"a": [0], "b": [1]})
+        with self.assertRaisesRegex(noli.UsageError, "expected a pair of bodies"):
+            noli.CollisionMesh(self.F, bodies={"a": [], "b": []}, ignore=["ab"])
 
     def test_more_rows_than_there_are_numbers(self):
         rows = np.broadcast_to(np.zeros(3), (2, 2**31, 3))
         self.refused("at most 2147483647", rows, [[0, 1, 2]])
         self.refused("at most 2147483647", self.V, np.broadcast_to(np.zeros(3, int), (2**31, 3)))
 
+    def test_a_mesh_stays_as_it_was_checked(self):
+        faces = np.ascontiguousarray(self.F, np.int64)
+        mesh = noli.CollisionMesh(faces)
+        faces[:] = -1
+        self.assertEqual(noli.verify(self.V, mesh).verdict, "contact")
+        with self.assertRaises(ValueError):
+            mesh.faces[0, 0] = -1
+
+    def test_options_of_files_with_arrays(self):
+        for option in ({"order": "natural"}, {"keys": ["a"]}, {"polygons": "refuse"}, {"ignore": "a.json"}, {"scene_folder": "."}):
+            self.refused("frames in files", self.V, self.F, error=noli.UsageError, **option)
+        with self.assertRaises(noli.UsageError):
+            noli.check(__file__, self.V, self.F, order="natural")
+        with self.assertRaises(noli.UsageError):
+            noli.check(__file__, ["a.obj", "b.obj"], order="nonsense")
+
+    def test_mixed_frames(self):
+        self.refused(r"frames\[1\]: has 2 coordinates; expected 3", [self.V[0], self.V[1][:, :2]], self.F)
+        mixed = noli.verify([self.V[0], self.V[1].astype(np.float32)], self.F)
+        self.assertEqual(mixed.inputs[0]["numbers"], "float32/float64")
+
     def test_options(self):
+        self.refused("threads", self.V, self.F, threads=-1, error=noli.UsageError)
+        self.refused("max_reports", self.V, self.F, max_reports=-1, error=noli.UsageError)
+        self.refused("max_reports", self.V, self.F, max_reports=2**63, error=noli.UsageError)
+        self.refused("time_limit", self.V, self.F, time_limit=np.nan, error=noli.UsageError)
         self.refused("min_distance", self.V, self.F, min_distance=-1, error=noli.UsageError)
         self.refused("min_distance", self.V, self.F, min_distance=np.nan, error=noli.UsageError)
         self.refused("dimension", self.V, self.F, dimension=4, error=noli.UsageError)
