@@ -32,12 +32,14 @@ void write_all(FrameSource& frames, std::unique_ptr<Sink> sink, const Before& be
 /// Gives frames to a checker that reads a pipe, in a thread of its own.
 class Giving {
  public:
-  Giving(FrameSource& frames, TrajectoryPipe& pipe) : pipe_(pipe), thread_([this, &frames] { give(frames); }) {}
+  /// `stop`: polled before each frame; nothing: nobody asks.
+  Giving(FrameSource& frames, TrajectoryPipe& pipe, const std::atomic<bool>* stop)
+      : pipe_(pipe), stop_(stop), thread_([this, &frames] { give(frames); }) {}
   ~Giving() { join(); }
   Giving(const Giving&) = delete;
   Giving& operator=(const Giving&) = delete;
 
-  /// Becomes true if nobody opens the checker's pipe any more, which then would wait without an end.
+  /// Becomes true after a stop, or if nobody opens the checker's pipe any more, which then would wait without an end.
   const std::atomic<bool>* failed() const { return &failed_; }
   /// The checker may have ended without reading all frames, or any. What went wrong with them, if anything did.
   std::exception_ptr join() {
@@ -52,7 +54,8 @@ class Giving {
     try {
       write_all(frames, pipe_.sink(), [this] {
         pipe_.drained();
-        return !pipe_.is_over();
+        if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) failed_ = true;
+        return !pipe_.is_over() && !failed_;
       });
     } catch (...) {
       fault_ = std::current_exception();
@@ -66,6 +69,7 @@ class Giving {
   }
 
   TrajectoryPipe& pipe_;
+  const std::atomic<bool>* stop_;
   std::exception_ptr fault_;  ///< written by the thread, read when it has ended
   std::atomic<bool> failed_ = false;
   std::thread thread_;
@@ -74,7 +78,7 @@ class Giving {
 std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frames) {
   TrajectoryPipe pipe(std::nullopt);
   request.trajectory = {pipe.path()};
-  Giving giving(frames, pipe);
+  Giving giving(frames, pipe, request.stop);
   request.stop = giving.failed();
   CheckerProcess checker(request);
   const std::optional<CheckerVerdict> verdict = checker.finish();

@@ -21,9 +21,9 @@ class CollisionMesh:
     faces : (n, 3) whole numbers
         Triangles, by the numbers of their vertices from 0.
     edges : (n, 2) whole numbers, optional
-        Edges that belong to no face: cables, hair. Edges of faces need not be listed.
+        Edges that belong to no face: cables, hair. Edges of faces need not be listed, and are dropped if they are.
     points : (n,) whole numbers, optional
-        Vertices that are particles.
+        Vertices that are particles. Vertices of faces and edges are dropped.
     vertex_count : int, optional
         How many vertices there are. Default: as many as the positions have.
     bodies : dict of name to (n,) whole numbers, optional
@@ -57,6 +57,7 @@ class CollisionMesh:
             raise InputError(f"{error}; expected triangles, by numbers of vertices from 0") from None
         self.edges = indices(edges, 2, "edges")
         self.points = indices(points, 1, "points")
+        self._drop_parts()
         self.vertex_count = vertex_count
         self.bodies = {str(name): indices(of, 1, f"bodies[{name!r}]") for name, of in (bodies or {}).items()}
         self.ignore = [(pair,) if isinstance(pair, str) else tuple(pair) for pair in ignore or []]
@@ -79,12 +80,24 @@ class CollisionMesh:
     def _cells(self):
         return {"faces": self.faces, "edges": self.edges, "points": self.points}
 
+    def _drop_parts(self):
+        """Leaves out edges and points that are parts of other cells, or listed before: they add nothing to compare."""
+        sides = np.sort(self.faces[:, [[0, 1], [1, 2], [0, 2]]].reshape(-1, 2), axis=1)
+        both = np.concatenate([sides, np.sort(self.edges, axis=1)])
+        _, first = np.unique(both, axis=0, return_index=True)
+        keep = np.sort(first[first >= len(sides)]) - len(sides)
+        self.edges = indices(self.edges[keep], 2, "edges")
+        _, first = np.unique(self.points, return_index=True)
+        points = self.points[np.sort(first)]
+        self.points = indices(points[~np.isin(points, [*self.faces.ravel(), *self.edges.ravel()])], 1, "points")
+
     def _require_vertices(self, count):
         """Raises InputError unless every number is below ``count``."""
         named = [*self._cells().items(), *((f"bodies[{name!r}]", of) for name, of in self.bodies.items())]
         for name, cells in named:
-            if cells.size and cells.max() >= count:
-                raise InputError(f"{name}: vertex {cells.max()} does not exist; expected 0 to {count - 1}")
+            if cells.size and not 0 <= cells.min() <= cells.max() < count:
+                bad = cells.min() if cells.min() < 0 else cells.max()
+                raise InputError(f"{name}: vertex {bad} does not exist; expected 0 to {count - 1}")
         if self.vertex_count not in (None, count):
             raise InputError(f"positions of {count} vertices; expected {self.vertex_count}, the mesh's vertex_count")
 

@@ -10,6 +10,7 @@ from typing import Any, Dict, List, Optional, Sequence
 from ._errors import UsageError
 
 ORDERS = ("checked", "natural", "given")
+MOST_THREADS = 1024
 LONGEST = 1e9  # seconds; more is no limit that anybody waits for
 
 
@@ -68,7 +69,18 @@ def refuse_options_of_files(options: Dict[str, Any]) -> None:
             raise UsageError(f"{name}: is for frames in files; expected none with arrays")
 
 
-def require_new(file: Any, force: bool) -> None:
-    """Raises UsageError if a file exists that may not be replaced."""
-    if os.path.lexists(file) and not force:
+def require_new(file: Any, force: bool, inputs: Sequence[Any] = ()) -> None:
+    """Raises UsageError if something is there that may not be replaced: without ``force``, no file, or an input."""
+    if not os.path.lexists(file):
+        return
+    if not force:
         raise UsageError(f"{os.fspath(file)} exists already; choose another name, or pass force=True")
+    if os.path.islink(file) or not os.path.isfile(file):
+        raise UsageError(f"{os.fspath(file)}: is no plain file; choose another name")
+    if any(os.path.exists(name) and os.path.samefile(file, name) for name in inputs):
+        raise UsageError(f"{os.fspath(file)}: is read; choose another name")
+
+
+def threads_of(value: int) -> int:
+    """0: all there are. Raises UsageError."""
+    return whole(value, "threads", 0, MOST_THREADS)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import pathlib
 import shutil
@@ -18,6 +19,9 @@ def find():
     found = shutil.which("noli_check")
     return pathlib.Path(found).parent if found else None
 
+
+# Threads that are still at work would be torn out of it.
+atexit.register(_core.end_all_work)
 
 folder = find()
 if folder is not None:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import numbers
 from ._errors import InputError
-from ._options import whole
+from ._options import threads_of
 from ._words import KINDS, PAIRS, POINTS, no_truth
 
 CORNERS = {pair: sum(points) for pair, points in POINTS.items()}
@@ -72,7 +72,7 @@ def contacts(pair: str, x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True,
     begin, end = _points(pair, x_t0, "x_t0"), _points(pair, x_t1, "x_t1")
     if begin.shape != end.shape:
         raise InputError(f"x_t1: has the shape {end.shape}; expected that of x_t0, {begin.shape}")
-    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), begin, end, bool(times), whole(threads, "threads", 0)))
+    return Contacts(*_core.contacts(int(np.flatnonzero(PAIRS == pair)[0]), begin, end, bool(times), threads_of(threads)))
 
 
 def vertex_face_contact(x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True, threads: int = 0) -> Contacts:

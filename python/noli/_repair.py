@@ -25,6 +25,7 @@ from ._options import (
     distance,
     refuse_options_of_files,
     require_new,
+    threads_of,
     time_limit_of,
     whole,
 )
@@ -142,7 +143,7 @@ def repair(
         "only_new": bool(only_new),
         "points": bool(points),
         "check": bool(check),
-        "threads": whole(threads, "threads", 0),
+        "threads": threads_of(threads),
         "force": bool(force),
         "resume": bool(resume),
         **dimension_of(dimension),
@@ -154,12 +155,12 @@ def repair(
         options["thickness"] = float(thickness)
         if not 0 < options["thickness"] < float("inf"):
             raise UsageError(f"thickness: expected a positive distance, found {thickness!r}")
-    if proof is not None:
-        require_new(proof, force)
-        options["proof"] = os.fspath(proof)
     if resume and output is None:
         raise UsageError("resume: needs output=, the pattern of the earlier call")
     names = file_names(frames)
+    if proof is not None:
+        require_new(proof, force, names or ())
+        options["proof"] = os.fspath(proof)
     given = given_frames(frames, mesh) if names is None else names
     if names is None:
         refuse_options_of_files({"order": order, "ignore": ignore})

@@ -10,7 +10,7 @@ from typing import Any, List, NoReturn, Optional, Union
 
 from . import _core
 from ._errors import NotProved
-from ._options import distance, time_limit_of, whole
+from ._options import distance, threads_of, time_limit_of
 from ._types import Floats, Json, Path
 from ._words import no_truth
 
@@ -167,7 +167,7 @@ def simulate(
         "prove": bool(prove),
         "past_duration": bool(past_duration),
         "ignore_space": bool(ignore_space),
-        "threads": whole(threads, "threads", 0),
+        "threads": threads_of(threads),
         **time_limit_of(time_limit),
     }
     if until is not None:

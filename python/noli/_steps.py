@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any, NoReturn, Optional
 
 import numpy as np
@@ -12,7 +13,7 @@ from . import _core
 from ._arrays import positions
 from ._errors import Contact, InputError
 from ._mesh import as_mesh
-from ._options import dimension_of, whole
+from ._options import dimension_of, threads_of, whole
 from ._types import Features, Floats, Integers, Mesh
 from ._verify import CONTACTS
 from ._words import KINDS, PAIRS, POINTS, no_truth
@@ -213,6 +214,7 @@ class Certifier:
         if found.count:
             raise Contact(f"x0: {found.count} pairs of cells intersect", found, None, np.empty(0, CONTACTS))
         self._decide: Any = None
+        self._lock = threading.RLock()
 
     def __repr__(self) -> str:
         return f"<noli.Certifier: {self.steps} free steps, {self.mesh!r}>"
@@ -225,7 +227,10 @@ class Certifier:
 
     def step(self, x: ArrayLike) -> Impact:
         """Goes on to x if straight lines from here to there touch nothing, and returns an Impact. Raises Contact."""
-        there = positions(x, "x")
+        with self._lock:
+            return self._step(positions(x, "x"))
+
+    def _step(self, there: Any) -> Impact:
         if there.shape != self.x.shape:
             raise InputError(f"x: has the shape {there.shape}; expected {self.x.shape}")
         if self._decide is None:
@@ -259,5 +264,5 @@ def _steps_of(mesh, x_t0, x_t1, dimension, at_rest, threads, max_reports=100):
     flat = all(x.shape[1] == 2 or (len(x) > 0 and np.all(x[:, 2] == x[0, 2])) for x in (x_t0, x_t1))
     dimension = dimension or (2 if flat else 3)
     return _core.Steps(
-        mesh, len(x_t0), dimension, at_rest, whole(threads, "threads", 0), whole(max_reports, "max_reports", 0)
+        mesh, len(x_t0), dimension, at_rest, threads_of(threads), whole(max_reports, "max_reports", 0)
     )

@@ -21,6 +21,7 @@ from ._options import (
     distance,
     refuse_options_of_files,
     require_new,
+    threads_of,
     time_limit_of,
     whole,
     words,
@@ -109,9 +110,9 @@ class Result:
 
     @property
     def first(self) -> Optional[FirstContact]:
-        """The first contact, a FirstContact; None if there is none, or cells intersect in the first frame."""
+        """The first contact, a FirstContact; None if there is none, or cells intersect as the motion begins."""
         first = self.to_json()["first"]
-        return None if first is None else FirstContact(first)
+        return None if first is None or self.to_json()["initial_intersections"] else FirstContact(first)
 
     @property
     def contacts(self) -> np.ndarray[Any, Any]:
@@ -342,16 +343,16 @@ def verify(
         "keep_going": bool(keep_going),
         "first_only": bool(first_only),
         "max_reports": whole(max_reports, "max_reports", 0),
-        "threads": whole(threads, "threads", 0),
+        "threads": threads_of(threads),
         "reproduce": bool(reproduce),
         **dimension_of(dimension),
         **time_limit_of(time_limit),
     }
-    if proof is not None:
-        require_new(proof, force)
-        options["proof"] = os.fspath(proof)
     bodies = bodies_in_files(frames, obstacles)
     names = file_names(frames)
+    if proof is not None:
+        require_new(proof, force, names or ())
+        options["proof"] = os.fspath(proof)
     if names is not None and len(names) == 1 and names[0].endswith(".npy") and mesh is not None:
         frames, names = np.load(names[0], mmap_mode="r"), None
     if at_rest and isinstance(frames, np.ndarray) and frames.ndim == 2:

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cfenv>
+#include <set>
 #include <thread>
 
 #include <noli/errors.h>
@@ -94,9 +95,64 @@ void Background::end() {
   changed_.notify_all();
 }
 
-std::unique_lock<std::mutex> OneAtATime::enter() {
+OneAtATime::Guard OneAtATime::enter() {
+  if (is_mine()) throw UsageError("this thread uses the object already; expected another one");
+  bool mine = false;
+  while (!mine) {
+    {
+      const py::gil_scoped_release unlocked;
+      mine = mutex_.try_lock_for(between_signals);
+    }
+    if (mine) continue;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  owner_ = std::this_thread::get_id();
+  return Guard(*this);
+}
+
+OneAtATime::Guard::~Guard() {
+  of_.owner_ = std::thread::id();
+  of_.mutex_.unlock();
+}
+
+namespace {
+
+/// All work of the process.
+struct AllWork {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::multiset<std::atomic<bool>*> stops;
+  bool ending = false;
+};
+
+AllWork& all_work() {
+  static AllWork& work = *new AllWork;  // threads may outlive what is static
+  return work;
+}
+
+}  // namespace
+
+Working::Working(std::atomic<bool>& stop) : stop_(stop) {
+  AllWork& all = all_work();
+  const std::lock_guard lock(all.mutex);
+  if (all.ending) throw Stopped(StopReason::interrupted, "the interpreter ends");
+  all.stops.insert(&stop);
+}
+
+Working::~Working() {
+  AllWork& all = all_work();
+  const std::lock_guard lock(all.mutex);
+  all.stops.erase(all.stops.find(&stop_));
+  all.changed.notify_all();
+}
+
+void end_all_work() {
   const py::gil_scoped_release unlocked;
-  return std::unique_lock(mutex_);
+  AllWork& all = all_work();
+  std::unique_lock lock(all.mutex);
+  all.ending = true;
+  for (std::atomic<bool>* const stop : all.stops) *stop = true;
+  all.changed.wait(lock, [&] { return all.stops.empty(); });
 }
 
 void in_background(const std::function<void(Background&)>& work) {
@@ -106,6 +162,7 @@ void in_background(const std::function<void(Background&)>& work) {
 
 void in_background(std::atomic<bool>& stop, const std::function<void(Background&)>& work) {
   stop = false;
+  const Working working(stop);
   Background background(stop);
   std::exception_ptr thrown;
   {

@@ -14,6 +14,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <thread>
 
 namespace noli::python {
 
@@ -52,12 +53,43 @@ class Background {
 /// Lets one thread at a time use an object.
 class OneAtATime {
  public:
-  /// Waits without the interpreter's lock (GIL). Precondition: this thread has it.
-  std::unique_lock<std::mutex> enter();
+  class Guard {
+   public:
+    explicit Guard(OneAtATime& of) : of_(of) {}
+    ~Guard();
+    Guard(const Guard&) = delete;
+    Guard& operator=(const Guard&) = delete;
+
+   private:
+    OneAtATime& of_;
+  };
+
+  /// Waits without the interpreter's lock (GIL), and hears signals. Throws UsageError if this thread uses the object
+  /// already: in a signal handler, for example. Precondition: this thread has the lock.
+  Guard enter();
+  bool is_mine() const { return owner_ == std::this_thread::get_id(); }
 
  private:
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
+  std::atomic<std::thread::id> owner_{};
 };
+
+/// Work that goes on: as long as one of these lives, the interpreter does not end.
+class Working {
+ public:
+  /// `stop`: set when the interpreter ends. Throws Stopped if it is ending. Precondition of this and of the destructor:
+  /// this thread has the interpreter's lock.
+  explicit Working(std::atomic<bool>& stop);
+  ~Working();
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+
+ private:
+  std::atomic<bool>& stop_;
+};
+
+/// Stops all work, waits until it has ended, and refuses more: for the interpreter's end.
+void end_all_work();
 
 /// Does the work, and returns when it has ended. Throws what a call or a signal raised, else what the work threw.
 /// Precondition: this thread has the interpreter's lock.

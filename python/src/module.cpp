@@ -4,6 +4,7 @@
 
 #include <noli/version.h>
 #include "certify/process/this_program.h"
+#include "python/src/background.h"
 #include "python/src/bindings.h"
 
 PYBIND11_MODULE(_core, core) {
@@ -11,6 +12,7 @@ PYBIND11_MODULE(_core, core) {
   core.attr("version") = noli::version_number();
   core.attr("commit") = noli::version_commit();
   core.def("keep_programs_in", &noli::keep_programs_in);
+  core.def("end_all_work", &end_all_work);
   bind_errors(core);
   bind_verify(core);
   bind_check(core);

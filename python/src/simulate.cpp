@@ -72,6 +72,7 @@ class Simulation {
   /// The next window, or None behind the last. Throws what the simulation threw.
   py::object next() {
     const auto alone = one_at_a_time_.enter();
+    const Working working(stop_);
     const std::optional<SeriesRow> row = wait_for_row();
     if (!row) return py::none();
     std::optional<RunWindow> window;
@@ -95,6 +96,7 @@ class Simulation {
   void close() {
     stop_ = true;
     changed_.notify_all();
+    if (one_at_a_time_.is_mine()) return;  // a signal handler of the thread that waits for a window: it ends now
     const auto alone = one_at_a_time_.enter();
     const py::gil_scoped_release unlocked;
     if (thread_.joinable()) thread_.join();

@@ -129,12 +129,13 @@ class Steps {
     x_t1_ = target;
     double share = 1;
     in_background(stop_, [&](Background&) {
-      decide();
+      decide_anew();
+      const bool stuck = result_.initial_intersections > 0;
       while (result_.touches() && share > 0 && !stop_) {
         share = share == 1 && result_.first ? safety * result_.first->time : share / 2;
-        if (share < least_share || result_.initial_intersections > 0) share = 0;
+        if (share < least_share || stuck) share = 0;
         go_to(target, share, single);
-        decide();
+        if (!stuck) decide_anew();
       }
     });
     return py::make_tuple(share, array_of(x_t1_), !result_.touches());
@@ -165,6 +166,12 @@ class Steps {
 
  private:
   static constexpr double least_share = 0x1p-60;
+
+  /// As the first step of a motion, so that what meets at its beginning counts.
+  void decide_anew() {
+    verifier_.emplace(mesh_, options_);
+    decide();
+  }
 
   void decide() { result_ = verifier_->step(x_t0_, x_t1_); }
 

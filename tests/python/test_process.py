@@ -12,7 +12,7 @@ import tracemalloc
 
 import noli
 import numpy as np
-from support import TestCase, falling_sheet, grid
+from support import ROOT, TestCase, falling_sheet, grid
 
 
 def resident_bytes():
@@ -115,18 +115,54 @@ class Process(TestCase):
         interrupted = 0
         for k, call in enumerate(calls * 6):
             timer = threading.Timer(0.003 + 0.01 * k, os.kill, (os.getpid(), signal.SIGINT))
-            timer.start()
             began = time.monotonic()
             try:
+                timer.start()
                 call()
                 timer.join()
-                time.sleep(0.01)
+                time.sleep(0.1)
             except KeyboardInterrupt:
                 interrupted += 1
             self.assertLess(time.monotonic() - began, 60)
             timer.join()
         self.assertGreater(interrupted, 10)
         self.assertEqual(noli.verify(V[:4], F).verdict, "proved")
+
+    def test_the_interpreter_ends_while_threads_work(self):
+        calls = (
+            "noli.verify(V, F, threads=1, check=False)",
+            "noli.verify(iter(V), F, threads=1, check=False)",
+            "[noli.time_of_impact(V[0], V[1], F) for _ in range(10**6)]",
+            "[noli.contacts('edge_edge', Q, Q) for _ in range(10**6)]",
+        )
+        for call in calls:
+            code = f"""
+                import sys, threading, time
+                sys.path[:0] = {sys.path!r}
+                import numpy as np, noli
+                from support import falling_sheet
+                V, F, _ = falling_sheet(100, 30, 0.01)
+                Q = np.random.default_rng(1).random((10**5, 4, 3))
+                threading.Thread(target=lambda: {call}, daemon=True).start()
+                time.sleep(0.2)
+            """
+            done = subprocess.run(
+                [sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False, timeout=60
+            )
+            self.assertEqual(done.returncode, 0, call + done.stderr)
+            self.assertNotIn("terminate", done.stderr)
+
+    def test_a_signal_handler_may_close_a_simulation(self):
+        simulation = noli.simulate(ROOT / "scenes" / "swinging_cloth.json", self.folder / "run")
+        before = signal.signal(signal.SIGALRM, lambda *_: simulation.close())
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, 0.5)
+        began = time.monotonic()
+        for _ in simulation:
+            pass
+        self.assertLess(time.monotonic() - began, 30)
+        simulation.close()
+        self.assertEqual(simulation.verdict, "undecided")
 
     def test_stops_soon(self):
         V, F, _ = falling_sheet(150)

@@ -123,6 +123,38 @@ class Steps(TestCase):
             thread.join()
         self.assertEqual(found, [noli.time_of_impact(self.V[0], self.V[4], self.mesh).time] * 80)
 
+    def test_a_step_that_stays_where_it_intersects_is_not_free(self):
+        x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, -1], [0.3, 0.2, 1], [0.2, 0.3, 1]])
+        for end in (x, x * -1 * -1, x + 0.25):
+            free = noli.collision_free_step(x, end, [[0, 1, 2], [3, 4, 5]])
+            self.assertFalse(free.free)
+            self.assertEqual(free.step, 0)
+            self.assertTrue(np.array_equal(free.positions, x))
+        apart = x + np.array([[0, 0, 0]] * 3 + [[5, 0, 0]] * 3)
+        self.assertTrue(noli.collision_free_step(apart, apart, [[0, 1, 2], [3, 4, 5]]).free)
+
+    def test_two_threads_never_accept_a_step_between_their_own(self):
+        lower, upper = self.V[0][:64], self.V[0][64:]
+        start, above, below = (np.concatenate([lower, upper + shift]) for shift in ([5, 0, 1], [0, 0, 1], [0, 0, -3]))
+        self.assertTrue(noli.time_of_impact(above, below, self.mesh).touches)
+        for _ in range(20):
+            certifier, accepted = noli.Certifier(self.mesh, start), []
+
+            def go(x, certifier=certifier, accepted=accepted):
+                try:
+                    certifier.step(x)
+                    accepted.append(x)
+                except noli.Contact:
+                    pass
+
+            threads = [threading.Thread(target=go, args=(x,)) for x in (above, below)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            if len(accepted) == 2:  # start to one, and from there to the other
+                self.assertFalse(noli.time_of_impact(*accepted, self.mesh).touches)
+
     def test_nothing_there(self):
         self.assertIsNone(noli.largest_min_distance(np.empty((0, 3)), np.empty((0, 3), int)))
         self.assertEqual(noli.self_intersections(np.empty((0, 3)), np.empty((0, 3), int)).count, 0)

@@ -207,6 +207,8 @@ class Verify(TestCase):
         with self.assertRaises(noli.Contact) as raised:
             noli.verify(np.repeat(x, 2, axis=0), self.F, dimension=3).raise_unless_proved()
         self.assertIn("from its beginning", str(raised.exception))
+        self.assertIsNone(raised.exception.time)
+        self.assertIsNone(raised.exception.result.first)
 
     def test_no_bool(self):
         for thing in (noli.verify(self.V, self.F), noli.time_of_impact(self.V[0], self.V[1], self.F)):
@@ -354,6 +356,33 @@ class BadInput(TestCase):
         self.refused("at most 2147483647", rows, [[0, 1, 2]])
         self.refused("at most 2147483647", self.V, np.broadcast_to(np.zeros(3, int), (2**31, 3)))
 
+    def test_cells_that_are_parts_of_others_are_dropped(self):
+        F = [[0, 1, 2], [3, 4, 5]]
+        mesh = noli.CollisionMesh(F, edges=[[0, 1], [2, 3], [3, 2], [5, 4]], points=[0, 6, 6, 2])
+        self.assertEqual(mesh.edges.tolist(), [[2, 3]])
+        self.assertEqual(mesh.points.tolist(), [6])
+        V = np.random.default_rng(1).normal(size=(2, 7, 3))
+        self.assertIn(noli.verify(V, mesh).verdict, ("proved", "contact"))
+        mesh.faces = np.array([[-1, 0, 1]])
+        self.refused("vertex -1 does not exist", V, mesh)
+
+    def test_outputs_that_would_destroy_something(self):
+        folder, link, device = self.folder / "folder", self.folder / "link", "/dev/null"
+        folder.mkdir()
+        link.symlink_to(self.folder / "target")
+        for place in (folder, link, device):
+            self.refused("no plain file", self.V, self.F, proof=place, force=True, error=noli.UsageError)
+        self.assertTrue(folder.is_dir() and link.is_symlink() and not os.path.isfile(device))
+        file = self.folder / "V.npz"
+        np.savez(file, vertices=self.V, faces=self.F)
+        before = file.read_bytes()
+        self.refused("is read", file, proof=file, force=True, error=noli.UsageError)
+        self.assertEqual(file.read_bytes(), before)
+        proof = self.folder / "old.noli"
+        proof.write_text("old")
+        noli.verify(self.V, self.F, proof=proof, force=True)
+        self.assertNotEqual(proof.read_bytes(), b"old")
+
     def test_a_mesh_stays_as_it_was_checked(self):
         faces = np.ascontiguousarray(self.F, np.int64)
         mesh = noli.CollisionMesh(faces)
@@ -377,6 +406,7 @@ class BadInput(TestCase):
 
     def test_options(self):
         self.refused("threads", self.V, self.F, threads=-1, error=noli.UsageError)
+        self.refused("threads", self.V, self.F, threads=10**9, error=noli.UsageError)
         self.refused("max_reports", self.V, self.F, max_reports=-1, error=noli.UsageError)
         self.refused("max_reports", self.V, self.F, max_reports=2**63, error=noli.UsageError)
         self.refused("time_limit", self.V, self.F, time_limit=np.nan, error=noli.UsageError)
