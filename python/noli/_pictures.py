@@ -47,14 +47,22 @@ def _matplotlib(shown: Any) -> Any:
     figure = pyplot.figure(figsize=(8, 6))
     axes = figure.add_subplot(projection="3d")
     x = shown["positions"]
-    if len(shown["faces"]):
+    half = _radius(shown)
+    # matplotlib draws beyond the axes, too: only faces inside are drawn.
+    inside = (np.abs(x[shown["faces"]] - shown["point"]) <= half).all(axis=(1, 2))
+    if inside.any():
         axes.add_collection3d(
-            Poly3DCollection(x[shown["faces"]], facecolors=_colours(shown), edgecolors=(0, 0, 0, 0.2), linewidths=0.3, alpha=0.7)
+            Poly3DCollection(
+                x[shown["faces"][inside]],
+                facecolors=_colours(shown)[inside],
+                edgecolors=(0, 0, 0, 0.2),
+                linewidths=0.3,
+                alpha=0.7,
+            )
         )
     if len(shown["edges"]):
         axes.add_collection3d(Line3DCollection(x[shown["edges"]], colors="black"))
     axes.scatter(*np.array(shown["point"])[:, np.newaxis], color="black", s=30, depthshade=False)
-    half = _radius(shown)
     for axis, centre in zip("xyz", shown["point"]):
         getattr(axes, f"set_{axis}lim")(centre - half, centre + half)
     axes.set_title(f"step {shown['step']}, t = {shown['time']:.6g}")
