@@ -102,8 +102,9 @@ void ProofRoute::check(VerifyOutcome& outcome) {
   }
   require_claim(outcome.claim, verdict->words, refuted);
   if (frames_are_streamed()) {
-    const char* const advice =
-        request_.trajectory || request_.reading.given ? "" : "; noli verify --trajectory OUT writes them to a file that checkers read";
+    const char* const advice = request_.trajectory || request_.reading.given
+                                   ? ""
+                                   : "; noli verify --trajectory OUT writes them to a file that checkers read";
     outcome.notes.push_back(fmt::format("the checker read the frames as noli passed them on{}", advice));
   }
   outcome.checker = version_of(Checker::plain);
