@@ -21,6 +21,17 @@ namespace {
 /// Sums and ratios of masses stay far from the ends of doubles.
 constexpr double least_mass = 1e-100, most_ratio = 1e4;
 
+/// Calls take(word, number of its line) for each word of a text file. Throws InputError.
+template <class Take>
+void each_word_of(const std::filesystem::path& file, const Take& take) {
+  const std::string text = read_whole_file(file);
+  Lines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    Words words(line);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) take(word, lines.number());
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size_t count,
@@ -49,42 +60,31 @@ std::vector<std::uint8_t> fixed_vertices(const RepairRequest& request, std::size
 }
 
 std::vector<VertexId> listed_vertices(const std::filesystem::path& file) {
-  const std::string text = read_whole_file(file);
   std::vector<VertexId> vertices;
-  Lines lines(text);
-  for (std::string_view line; lines.next(line);) {
-    Words words(line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      VertexId vertex = 0;
-      if (parse_number(word, vertex) != std::errc()) {
-        throw InputError(file.string(), line_place(lines.number()),
-                         "expected the number of a vertex, found " + in_quotes(word));
-      }
-      vertices.push_back(vertex);
+  each_word_of(file, [&](std::string_view word, std::size_t line) {
+    VertexId vertex = 0;
+    if (parse_number(word, vertex) != std::errc()) {
+      throw InputError(file.string(), line_place(line), "expected the number of a vertex, found " + in_quotes(word));
     }
-  }
+    vertices.push_back(vertex);
+  });
   return vertices;
 }
 
 std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, std::span<const Position> x) {
   if (request.masses == "size") return masses_by_size(mesh, x);
   if (request.masses == "uniform") return std::vector<double>(mesh.vertex_count, 1);
-  const std::string text = read_whole_file(request.masses);
   std::vector<double> masses;
-  Lines lines(text);
-  for (std::string_view line; lines.next(line);) {
-    Words words(line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      double mass = 0;
-      const std::string problem = parse_finite(word, mass);
-      if (!problem.empty() || mass < least_mass || mass > 1 / least_mass) {
-        throw InputError(
-            request.masses, line_place(lines.number()),
-            fmt::format("expected a mass from {} to {}, found {}", least_mass, 1 / least_mass, in_quotes(word)));
-      }
-      masses.push_back(mass);
+  each_word_of(request.masses, [&](std::string_view word, std::size_t line) {
+    double mass = 0;
+    const std::string problem = parse_finite(word, mass);
+    if (!problem.empty() || mass < least_mass || mass > 1 / least_mass) {
+      throw InputError(
+          request.masses, line_place(line),
+          fmt::format("expected a mass from {} to {}, found {}", least_mass, 1 / least_mass, in_quotes(word)));
     }
-  }
+    masses.push_back(mass);
+  });
   if (masses.size() != mesh.vertex_count) {
     throw InputError(request.masses, "",
                      fmt::format("has {} numbers; expected {}, one for each vertex", masses.size(), mesh.vertex_count));

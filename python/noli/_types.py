@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,4 +23,3 @@ Features = Tuple[Tuple[int, ...], Tuple[int, ...]]
 CcdFunction = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
 Claim = Union[Path, Json, None]
 Names = List[str]
-Number = Optional[float]

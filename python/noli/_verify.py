@@ -12,7 +12,6 @@ import numpy as np
 from . import _core
 from ._errors import Contact, NotProved, UsageError
 from ._frames import bodies_in_files, file_names, given_frames
-from ._mesh import CollisionMesh
 from ._types import Bodies, Features, Frames, Integers, Json, Mesh, Names, Path, Progress
 from ._options import (
     ORDERS,
@@ -91,8 +90,8 @@ class Result:
         "contact", "too_near", "undecided".
     """
 
-    def __init__(self, outcome: _core.Outcome, mesh: Optional[CollisionMesh] = None) -> None:
-        self._outcome, self._mesh = outcome, mesh
+    def __init__(self, outcome: _core.Outcome) -> None:
+        self._outcome = outcome
         self._json: Optional[Json] = None
 
     @property
@@ -110,7 +109,7 @@ class Result:
 
     @property
     def first(self) -> Optional[FirstContact]:
-        """The first contact, a FirstContact; None if there is none, or cells intersect as the motion begins."""
+        """The first FirstContact. It is None without contacts, and when cells already intersect at the beginning."""
         first = self.to_json()["first"]
         return None if first is None or self.to_json()["initial_intersections"] else FirstContact(first)
 
@@ -362,7 +361,7 @@ def verify(
         refuse_options_of_files(of_files)
         given = given_frames(frames, mesh)
         with progress_of(progress) as told:
-            return Result(_core.Outcome(given, given.mesh, options, told), given.mesh)
+            return Result(_core.Outcome(given, given.mesh, options, told))
     if mesh is not None:
         raise UsageError("mesh: frames in files have their own; expected none")
     options["order"] = choice(order, "order", ORDERS)

@@ -50,11 +50,7 @@ class Check {
   }
 
   std::string json() const { return to_text(report::document("check", report::check_json(checked_))); }
-  std::string text() const {
-    report::Answer answer = report::check_answer(checked_);
-    answer.next.clear();  // is about options of the command
-    return answer.words_above(false) + answer.last_line();
-  }
+  std::string text() const { return text_of(report::check_answer(checked_)); }
 
  private:
   /// What the mesh ignores is left out of the claim that is asked for, unless the words say what may be.

@@ -18,6 +18,7 @@
 
 #include <noli/frames.h>
 #include "python/src/background.h"
+#include "report/answer.h"
 #include "trajectory/formats/frame_names.h"
 
 namespace noli::python {
@@ -42,6 +43,12 @@ inline std::vector<BodyFrames> bodies_in_files(const pybind11::dict& options, st
   for (auto& [name, files, still] : rows) bodies.push_back({name, named_frames(std::move(files)), still});
   order_bodies(bodies, order_of(options), notes);
   return bodies;
+}
+
+/// What the command prints, without its advice, which is about options of the command.
+inline std::string text_of(report::Answer answer, bool details = false) {
+  answer.next.clear();
+  return answer.words_above(details) + answer.last_line();
 }
 
 /// "time_limit", in seconds from now.

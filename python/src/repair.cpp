@@ -85,11 +85,7 @@ class Repair {
   }
 
   std::string json() const { return to_text(report::document("repair", report::repair_json(request_, outcome_))); }
-  std::string text() const {
-    report::Answer answer = report::repair_answer(request_, outcome_);
-    answer.next.clear();  // is about options of the command
-    return answer.words_above(false) + answer.last_line();
-  }
+  std::string text() const { return text_of(report::repair_answer(request_, outcome_)); }
 
  private:
   static void write_frames(const Frames& given, const fs::path& file) {

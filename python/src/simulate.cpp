@@ -109,9 +109,7 @@ class Simulation {
   }
   std::string text() const {
     if (!has_outcome()) return "";
-    report::Answer answer = report::simulate_answer(report::simulate_json(request_, *outcome_), request_, *outcome_);
-    answer.next.clear();  // is about options of the command
-    return answer.words_above(false) + answer.last_line();
+    return text_of(report::simulate_answer(report::simulate_json(request_, *outcome_), request_, *outcome_));
   }
 
  private:

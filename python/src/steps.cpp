@@ -73,8 +73,6 @@ class Steps {
     return result_.touches();
   }
 
-  bool goes_on() const { return result_.goes_on; }
-
   /// {pair, kind, time, vertices, point}, or None: nothing touches, or cells intersect from the beginning.
   py::object first() const {
     if (!result_.first) return py::none();
@@ -226,7 +224,6 @@ void bind_steps(py::module_& core) {
       .def("step", &Steps::step)
       .def("first", &Steps::first)
       .def("pairs", &Steps::pairs)
-      .def("goes_on", &Steps::goes_on)
       .def("contact_count", &Steps::contact_count)
       .def("intersection_count", &Steps::intersection_count)
       .def("intersections", &Steps::intersections)

@@ -83,9 +83,7 @@ class Outcome {
   std::string json() const { return to_text(report::document("verify", report::verify_json(request_, outcome_))); }
   std::string claim() const { return to_text(claim_file(outcome_.claim)); }
   std::string text(bool details) const {
-    report::Answer answer = report::verify_answer(request_, outcome_, {.result = "", .details = details});
-    answer.next.clear();  // is about options of the command
-    return answer.words_above(details) + answer.last_line();
+    return text_of(report::verify_answer(request_, outcome_, {.result = "", .details = details}), details);
   }
 
   /// One row for each listed contact.

@@ -29,7 +29,7 @@ struct PictureView {
 /// Throws UsageError in a build without a library for pictures.
 void require_pictures();
 
-/// Calls a function that draws a view as a user asked for it. Throws UsageError if that is none.
+/// Calls `draw`, which draws a view that the user chose. Throws UsageError if nothing can be seen from there.
 template <class Function>
 auto with_asked_view(const Function& function) {
   try {

@@ -77,7 +77,7 @@ class Examples(TestCase):
             tetra = [("tetra", np.array([[0, 1, 2, 3]])), ("tetra", np.array([[1, 2, 3, 4]]))]
             meshio.Mesh(x + k, tetra).write(names[k])
         self.assertIn("6 cells", self.run_example("meshio_frames.py", *names)[1])
-        # Other cells, and what is no mesh.
+        # Files with different cells, and a file that does not exist.
         meshio.Mesh(x, [("tetra", np.array([[0, 1, 2, 3]]))]).write(names[1])
         code, said = self.run_example("meshio_frames.py", *names)
         self.assertEqual(code, 3, said)

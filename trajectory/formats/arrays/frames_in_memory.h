@@ -2,8 +2,8 @@
 //
 // Frames that a function gives: see GivenFrames (noli/frames.h).
 //
-// Each frame is copied once; what is hashed is the copy that is decided. Of a function that can be asked again, all
-// frames are hashed, also those that nobody asked for; where frames are read twice, both times have to give the same.
+// Each frame is copied once, and the hash is that of the copy. If the function can be asked again, all frames are
+// hashed, even after an early stop. Frames that are read twice must be the same both times.
 #pragma once
 
 #include <memory>
