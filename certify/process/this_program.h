@@ -15,7 +15,7 @@ std::uint64_t peak_memory_bytes();
 /// The executable of this process.
 std::filesystem::path this_program_file();
 
-/// Where beside_this_program() looks, for a library in the process of another program, an interpreter for example. Call it
+/// Where beside_this_program() looks. For a library in the process of another program, such as an interpreter. Call it
 /// before any work.
 void keep_programs_in(std::filesystem::path folder);
 
