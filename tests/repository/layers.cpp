@@ -27,9 +27,18 @@ const std::map<std::string, Row>& table() {
   static const Row questions = with(both_wings, {"certify"});
   static const Row answers = with(questions, {"report", "proofs/checker", "oracle", "include"});
   static const std::map<std::string, Row> rows = {
-      {"include", {}},           {"kernel", {}},       {"trajectory", {}},     {"certificates", geometry},
-      {"integrator", dynamics},  {"proofs", geometry}, {"proofs/checker", {}}, {"certify", both_wings},
-      {"report", questions},     {"oracle", {}},       {"audit", answers},     {"app", with(answers, {"audit"})},
+      {"include", {}},
+      {"kernel", {}},
+      {"trajectory", {}},
+      {"certificates", geometry},
+      {"integrator", dynamics},
+      {"proofs", geometry},
+      {"proofs/checker", {}},
+      {"certify", both_wings},
+      {"report", questions},
+      {"oracle", {}},
+      {"audit", answers},
+      {"app", with(answers, {"audit"})},
       {"python", with(answers, {"audit"})},
       {"examples", {"include"}},  // installed headers
   };

@@ -30,8 +30,8 @@ void order_bodies(std::vector<BodyFrames>& bodies, FrameOrder order, std::vector
 /// All files of all bodies.
 std::vector<std::filesystem::path> files_of(const std::vector<BodyFrames>& bodies);
 
-/// Throws InputError if a single file or folder is named that does not exist. Otherwise the first complaint would be that
-/// one frame has no motion.
+/// Throws InputError if a single file or folder is named that does not exist. Otherwise the first complaint would be
+/// that one frame has no motion.
 void require_there(const std::vector<std::filesystem::path>& frames);
 
 /// The files that are read to find out which frames are named: lists, without their @, and series.
