@@ -18,6 +18,7 @@ struct Command {
 };
 
 Command add_verify(CLI::App& app);
+Command add_merge(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_ccd(CLI::App& app);
 Command add_simulate(CLI::App& app);

@@ -23,6 +23,7 @@
 #include "app/output.h"
 #include "app/parts.h"
 #include "app/process.h"
+#include "app/ranks/ranks.h"
 #include "app/terminal.h"
 #include "app/wrong_usage.h"
 #include "trajectory/stop.h"
@@ -115,14 +116,20 @@ class Program {
 
   ExitCode run() const {
     for (const Command& command : commands_) {
-      if (command.parser->parsed()) return command.run();
+      if (!command.parser->parsed()) continue;
+      const std::string name = command.parser->get_name();
+      if (Ranks::are_there() && name != "verify") {
+        throw UsageError(fmt::format("mpirun started several ranks, and `noli {}` is for one process", name));
+      }
+      return command.run();
     }
     return complain(ExitCode::failure, "internal error: a command without an action");
   }
 
  private:
-  static constexpr std::array<std::pair<std::string_view, Command (*)(CLI::App&)>, 10> plain_commands = {
+  static constexpr std::array<std::pair<std::string_view, Command (*)(CLI::App&)>, 11> plain_commands = {
       {{"verify", add_verify},
+       {"merge", add_merge},
        {"check", add_check},
        {"simulate", add_simulate},
        {"explain", add_explain},

@@ -10,13 +10,14 @@
 #include <noli/contact.h>
 #include "certify/verification.h"
 #include "proofs/prover/cells/baseline.h"
+#include "proofs/prover/chain.h"
 #include "proofs/prover/verifier.h"
 #include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
 
 SequenceVerifier::SequenceVerifier(Mesh mesh, SequenceOptions options)
-    : mesh_(std::move(mesh)), options_(std::move(options)) {}
+    : mesh_(std::move(mesh)), options_(std::move(options)), steps_(options_.first_step) {}
 SequenceVerifier::~SequenceVerifier() = default;
 SequenceVerifier::SequenceVerifier(SequenceVerifier&&) noexcept = default;
 SequenceVerifier& SequenceVerifier::operator=(SequenceVerifier&&) noexcept = default;
@@ -62,13 +63,16 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   take_back(x_t0);
   const std::uint64_t steps_before = steps_;
   const bool meeting_before = meeting_at_end_;
+  // What the chain before this one found is not known here.
+  const bool any_at_begin = starts_chain(steps_) ? steps_ > 0 : meeting_at_end_;
+  if (starts_chain(steps_)) windows_.reset();
   VerifyOptions options = step_options();
   options.prove = prove && !baseline_;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
-  const bool any_at_begin = std::exchange(meeting_at_end_, !options_.at_rest && found.contact_count() > 0);
+  meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
   result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   if (result.touches() && !std::ranges::equal(x_t0, x_t1)) {

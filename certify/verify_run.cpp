@@ -17,8 +17,10 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
+#include "certify/shards/decided_steps.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
+#include "proofs/prover/chain.h"
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/frame_order.h"
@@ -107,6 +109,7 @@ class SequenceVerification : private Verification {
  private:
   void verify_steps() {
     if (request_.merge_identical) find_classes();
+    if (request_.only) skip_to_first();
     while (!stopped() && outcome_.complete) {
       if (!read_next(sequence_)) {
         ended_ = outcome_.complete && !stopped();
@@ -119,9 +122,17 @@ class SequenceVerification : private Verification {
       note_rest();
       write_frames();
       verify();
-      if (enough()) break;
+      if (enough() || (request_.only && sequence_.step() + 1 >= request_.only->end)) break;
     }
     write_other_frames();
+  }
+
+  /// Of some steps alone, the first frames still say what all steps are about.
+  void skip_to_first() {
+    if (request_.only->first == 0 || stopped() || !read_next(sequence_)) return;
+    begin();
+    if (stopped()) outcome_.complete = false;
+    if (outcome_.complete) sequence_.skip_to(request_.only->first);
   }
 
   /// Whatever the verdict, the file of --trajectory has all frames.
@@ -161,13 +172,18 @@ class SequenceVerification : private Verification {
     try {
       const std::size_t count = source_->count().value_or(0);
       for (std::size_t k = 0; k < count && !stopped(); ++k) {
-        source_->look_at(k);
+        if (is_read(k)) source_->look_at(k);
         tell("look", static_cast<double>(k + 1) / static_cast<double>(count));
       }
     } catch (const Stopped&) {
       stopped();
     }
     outcome_.read_seconds += watch.seconds();
+  }
+
+  bool is_read(std::size_t frame) const {
+    const auto& only = request_.only;
+    return !only || frame < 2 || (only->first <= frame && frame <= only->end);
   }
 
   /// Whether there was another step; false if the user stopped the reading.
@@ -220,6 +236,7 @@ class SequenceVerification : private Verification {
     if (request_.only_new && !find_baseline()) return;
     labels_ = labels_of_frames(verifier_->mesh(), exclusions(), outcome_.baseline);
     outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
+    if (request_.decided) request_.decided->require_claim(outcome_.claim);
   }
 
   /// False if it was stopped: what was found is then not all.
@@ -274,6 +291,7 @@ class SequenceVerification : private Verification {
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
     options.exclusions = exclusions();
     options.only_new = request_.only_new;
+    options.first_step = request_.only ? request_.only->first : 0;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
     options.progress = [this](double share) {
@@ -284,14 +302,32 @@ class SequenceVerification : private Verification {
   }
 
   void verify() {
-    const bool by_verifier = request_.open_proof && verifier_proves(request_);
-    const bool wanted = !doubtful() && !outcome_.no_proof;
-    if (by_verifier && request_.open_proof_at_once) begin_proof();
+    if (starts_chain(sequence_.step())) begin_chain();
+    if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
     give_frames();
-    const StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), by_verifier && wanted);
+    const StepResult result = request_.decided ? request_.decided->result(sequence_.step()) : decide();
+    if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
     if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(result);
+  }
+
+  void begin_chain() {
+    chain_proves_ = request_.open_proof && verifier_proves(request_);
+    if (proof_) proof_->begin_chain();
+    prover_.reset();
+  }
+
+  /// What other chains found does not count, as each may be decided by itself.
+  StepResult decide() {
+    StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
+    chain_proves_ = chain_proves_ && result.proof != nullptr;
+    return result;
+  }
+
+  static StepResult without_proof(StepResult result) {
+    result.proof.reset();
+    return result;
   }
 
   AnyQuery query(const FeatureContact& contact) const {
@@ -324,7 +360,9 @@ class SequenceVerification : private Verification {
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
-    if (result.touches()) {
+    if (request_.decided) {
+      take_proof(step, result);
+    } else if (result.touches()) {
       refute(*proof_, step, result);
     } else {
       prove_untouched(step, result);
@@ -338,14 +376,41 @@ class SequenceVerification : private Verification {
     outcome_.proof_begun = true;
     const Mesh& mesh = verifier_->mesh();
     proof_ = proof_of_frames(request_, outcome_.claim, mesh, classes_ ? &*classes_ : nullptr, labels_);
-    const WindowOptions options{verifier_->step_options(), {}, nullptr, &labels_};
-    if (!verifier_proves(request_)) prover_.emplace(mesh, sequence_.x_t0(), options);
   }
 
   void prove_untouched(const MotionStep& step, const StepResult& result) {
-    if (!verifier_proves(request_)) return search_proof(*proof_, step, *prover_, verifier_->step_options());
+    if (!verifier_proves(request_)) {
+      const WindowOptions options{verifier_->step_options(), {}, nullptr, &labels_};
+      if (!prover_) prover_.emplace(verifier_->mesh(), sequence_.x_t0(), options);
+      return search_proof(*proof_, step, *prover_, verifier_->step_options());
+    }
     if (!result.proof) return note_no_proof();
     proof_->write(step, *result.proof);
+  }
+
+  /// What was found by whoever decided the step.
+  void take_proof(const MotionStep& step, const StepResult& result) {
+    DecidedSteps& decided = *request_.decided;
+    const bool written = copy_proof(step);
+    const auto near = result.touches() ? std::nullopt : decided.near();
+    if (result.touches() || near) outcome_.witnesses += written ? 1 : 0;
+    if (near) {
+      outcome_.near = near;
+      outcome_.near->step = outcome_.steps.size();
+      if (outcome_.steps.size() == 1) outcome_.largest_distance = decided.largest_distance();
+    } else if (!result.touches() && !written) {
+      note_no_proof();
+    }
+  }
+
+  bool copy_proof(const MotionStep& step) {
+    try {
+      return proof_->copy(step, [this](const auto& take) { request_.decided->blocks(take); });
+    } catch (const std::invalid_argument&) {
+      throw InputError(
+          sequence_.name_t1(), "",
+          fmt::format("is not what step {} was decided for; expected the same files", sequence_.step() + 1));
+    }
   }
 
   void conclude() {
@@ -361,6 +426,7 @@ class SequenceVerification : private Verification {
       outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
     }
     outcome_.inputs = source_->take_facts();
+    if (request_.decided) request_.decided->require_inputs(outcome_.inputs);
     note_numbering();
   }
 
@@ -404,8 +470,9 @@ class SequenceVerification : private Verification {
   std::optional<SequenceVerifier> verifier_;
   CellLabels labels_;  ///< of the cells of verifier_
   std::unique_ptr<StepProofs> proof_;
-  std::optional<WindowVerifier> prover_;  ///< set if verify_step cannot prove the request
+  std::optional<WindowVerifier> prover_;  ///< of the chain, set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
+  bool chain_proves_ = false;             ///< all steps of the chain so far have a proof
   bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;
   std::optional<TrajectoryFile> trajectory_;  ///< --trajectory

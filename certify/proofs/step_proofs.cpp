@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/step_proofs.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "certify/proofs/largest_distance.h"
@@ -23,11 +24,22 @@ StepProofs::StepProofs(const Mesh& mesh, ProofHeader header, CellLabels labels, 
       labels_(std::move(labels)),
       header_(with_labels(std::move(header), mesh, labels_)),
       paths_(mesh, header_.ring),
-      file_(open(header_)) {}
+      file_(open(header_)),
+      tree_due_(file_.committed().groups == 1) {}
+
+void StepProofs::begin_chain() {
+  tree_due_ = true;
+  leaf_cells_.clear();
+}
+
+void StepProofs::commit() {
+  file_.commit();
+  tree_due_ = false;
+}
 
 bool StepProofs::prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options) {
   begin(step, ProofFile::Kind::proof);
-  if (file_.committed().groups == 1) file_.tree(verifier.encoded_tree());
+  if (tree_due_) file_.tree(verifier.encoded_tree());
   const LeastDistance distance{header_.eta, &paths_};
   return file_.tokens([&](const auto& take) { return verifier.prove(step.lines, options, distance, take); });
 }
@@ -38,6 +50,20 @@ void StepProofs::write(const MotionStep& step, const StepProof& proof) {
   leaf_cells_ = proof.leaf_cells;
   file_.tokens(proof.tokens);
   file_.commit();
+}
+
+bool StepProofs::copy(const MotionStep& step, const BlocksOfStep& blocks) {
+  bool any = false;
+  blocks([&](FourLetters kind, std::string_view payload) {
+    any = true;
+    if (kind != ProofFile::step_kind) return file_.append(kind, payload);
+    const std::string own =
+        file_.step_payload(step.number, ProofFile::kind_of(payload), step.lines, step.shift, step.hash);
+    if (payload != own) throw std::invalid_argument("the proof is about another motion");
+    file_.append(kind, payload);
+  });
+  if (any) commit();
+  return any;
 }
 
 bool StepProofs::refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings) {
@@ -54,8 +80,7 @@ std::optional<LargestDistance> StepProofs::largest(const MotionStep& step, const
 }
 
 void StepProofs::begin(const MotionStep& step, ProofFile::Kind kind) {
-  if (step.hash) return file_.begin_step(step.number, kind, step.lines, step.shift, *step.hash);
-  file_.begin_step(step.number, kind, step.lines, step.shift);
+  file_.begin_step(step.number, kind, step.lines, step.shift, step.hash);
 }
 
 WitnessStep StepProofs::what(const MotionStep& step) const {

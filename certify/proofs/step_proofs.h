@@ -27,6 +27,9 @@ struct MotionStep {
   std::optional<Sha256Digest> hash{};  ///< of a window's group in trajectory.blocks
 };
 
+/// Passes on blocks, kind and payload.
+using BlocksOfStep = std::function<void(const std::function<void(FourLetters, std::string_view)>& take)>;
+
 class StepProofs {
  public:
   using Open = std::function<ProofFile(const ProofHeader&)>;
@@ -37,13 +40,19 @@ class StepProofs {
   StepProofs(const StepProofs&) = delete;
   StepProofs& operator=(const StepProofs&) = delete;
 
+  /// The next proof brings its tree, as the first one of a chain does (proofs/prover/chain.h).
+  void begin_chain();
   /// Finds and writes the proof of a step in which nothing touches; call commit() to make it count. `verifier`: of the
   /// mesh, the same for all steps. Returns false if it was stopped. Throws TooNear and NoProof. In all three cases the
   /// file stays as it was.
   bool prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options);
   /// Writes a finished proof and commits it.
   void write(const MotionStep& step, const StepProof& proof);
-  void commit() { file_.commit(); }
+  void commit();
+
+  /// Writes and commits the blocks of a step, of a proof or a witness, that were written before: `blocks` passes them
+  /// on, STEP first. False if there are none. Throws std::invalid_argument when they are about another motion.
+  bool copy(const MotionStep& step, const BlocksOfStep& blocks);
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
   bool refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings);
@@ -65,6 +74,7 @@ class StepProofs {
   ProofHeader header_;
   MeshPaths paths_;
   ProofFile file_;
+  bool tree_due_;                          ///< the next proof brings its tree
   std::vector<std::uint32_t> leaf_cells_;  ///< of the last tree that write() wrote
 };
 

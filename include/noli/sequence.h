@@ -53,6 +53,9 @@ struct SequenceOptions {
   const Exclusions* exclusions = nullptr;  ///< pairs of groups that are not compared; must outlive the verifier
   /// Pairs of cells that intersect in the first frame are not compared: see SequenceVerifier::baseline().
   bool only_new = false;
+  /// Of all steps of the motion, the number of the first one that is given. Only with 0 are initial intersections
+  /// looked for; with `only_new`, call baseline() first.
+  std::uint64_t first_step = 0;
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the step is not complete
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::function<void(double)> progress = {};  ///< called with the share of the current step that is done, in [0, 1]

@@ -38,8 +38,18 @@
 
 namespace noli {
 
+class DecidedSteps;
 class TrajectoryPipe;
 class Sink;
+struct StepResult;
+
+/// Steps first, first + 1, ..., end - 1, from 0.
+struct StepRange {
+  std::uint64_t first = 0, end = 0;
+
+  bool contains(std::uint64_t step) const { return first <= step && step < end; }
+  friend bool operator==(const StepRange&, const StepRange&) = default;
+};
 
 struct VerifyRequest {
   std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
@@ -78,8 +88,11 @@ struct VerifyRequest {
   bool open_proof_at_once = false;
 
   // For `noli verify` itself.
-  bool lines_in_no_file = false;              ///< of a run that is reproduced: it recorded frames alone
-  TrajectoryPipe* trajectory_pipe = nullptr;  ///< on which the checker reads the motion; nothing: nobody does
+  bool lines_in_no_file = false;                 ///< of a run that is reproduced: it recorded frames alone
+  TrajectoryPipe* trajectory_pipe = nullptr;     ///< on which the checker reads the motion; nothing: nobody does
+  std::optional<StepRange> only;                 ///< of frames: decide these steps alone
+  std::vector<StepResult>* decisions = nullptr;  ///< of frames: gets what was found in each step, without its proof
+  std::shared_ptr<DecidedSteps> decided;         ///< of frames: has what would be found in each step
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }

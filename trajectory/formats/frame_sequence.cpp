@@ -35,6 +35,12 @@ bool FrameSequence::next() {
   return false;
 }
 
+void FrameSequence::skip_to(std::size_t step) {
+  if (motion_ == Motion::linear && frames_read_ == step + 1) return;
+  frames_read_ = step;
+  if (motion_ == Motion::linear) read_next_frame();
+}
+
 bool FrameSequence::read_next_frame() {
   // Room for the next one first, so that no third frame is in memory.
   x_t0_ = motion_ == Motion::linear ? std::exchange(x_t1_, {}) : std::vector<Position>();

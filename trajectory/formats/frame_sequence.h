@@ -41,6 +41,10 @@ class FrameSequence {
   /// require_same_mesh do; the sequence must not be used any more then.
   bool next();
 
+  /// Makes `step` the one to which next() moves. Precondition: it comes after the current one, of which there is one.
+  /// Throws as next().
+  void skip_to(std::size_t step);
+
   std::size_t frames_read() const { return frames_read_; }
   /// Number of the current step, from 0. This and all below: precondition: next() returned true.
   std::size_t step() const { return frames_read_ - (motion_ == Motion::linear ? 2 : 1); }

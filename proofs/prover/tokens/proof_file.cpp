@@ -103,12 +103,8 @@ ProofFile::ProofFile(std::unique_ptr<Sink> sink, const ProofHeader& header)
 ProofFile::ProofFile(std::unique_ptr<Sink> sink, const CommitPoint& committed, const ProofHeader& header)
     : blocks_(std::move(sink), committed), dimension_(header.dimension), eta_(header.eta) {}
 
-void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift) {
-  begin_step(number, kind, lines, shift, breakpoints_hash(lines, dimension_, shift));
-}
-
-void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
-                           const Sha256Digest& hash) {
+std::string ProofFile::step_payload(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
+                                    const std::optional<Sha256Digest>& hash) const {
   const motion::Scale units = units_of(lines, dimension_, shift, eta_);
   std::string bytes;
   put(bytes, number);
@@ -117,8 +113,19 @@ void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& li
   put(bytes, static_cast<std::uint32_t>(unit(units.space)));
   put(bytes, static_cast<std::uint32_t>(unit(units.time)));
   put(bytes, static_cast<std::uint8_t>(kind));
-  bytes.append(bytes_of(hash));
-  blocks_.append(four_letters("STEP"), bytes);
+  bytes.append(bytes_of(hash ? *hash : breakpoints_hash(lines, dimension_, shift)));
+  return bytes;
+}
+
+ProofFile::Kind ProofFile::kind_of(std::string_view step_payload) {
+  constexpr std::size_t place = 3 * sizeof(std::uint64_t) + 2 * sizeof(std::int32_t);
+  const bool witness = step_payload.size() > place && step_payload[place] == static_cast<char>(Kind::witness);
+  return witness ? Kind::witness : Kind::proof;
+}
+
+void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
+                           const std::optional<Sha256Digest>& hash) {
+  append(step_kind, step_payload(number, kind, lines, shift, hash));
 }
 
 void ProofFile::tokens(const JoinedTokens& all) {

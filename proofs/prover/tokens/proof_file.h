@@ -50,11 +50,19 @@ class ProofFile {
 
   enum class Kind : std::uint8_t { proof = 0, witness = 1 };
 
+  /// Adds blocks of a step that another file has: STEP first, as step_payload() gives it.
+  void append(FourLetters kind, std::string_view payload) { blocks_.append(kind, payload); }
+  static constexpr FourLetters step_kind = four_letters("STEP");
+  /// The payload of a STEP block, for begin_step() with the same arguments.
+  std::string step_payload(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
+                           const std::optional<Sha256Digest>& hash) const;
+  /// Whether the payload of a STEP block begins a proof, or a witness.
+  static Kind kind_of(std::string_view step_payload);
+
   /// Begins step `number`, whose times are those of `lines` plus `shift`. In two dimensions third coordinates count as
-  /// 0.
-  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift);
-  /// The same for a window of a run, with the hash of its group.
-  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift, const Sha256Digest& hash);
+  /// 0. `hash`: of a window of a run, that of its group.
+  void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
+                  const std::optional<Sha256Digest>& hash = {});
   void tree(std::string_view payload) { blocks_.append(four_letters("TREE"), payload); }
   void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
   /// All tokens of a step.

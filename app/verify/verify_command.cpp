@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,29 +11,15 @@
 #include "app/bodies.h"
 #include "app/commands.h"
 #include "app/help.h"
-#include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
-#include "app/process.h"
-#include "app/progress.h"
-#include "app/verify_meshes.h"
-#include "certify/process/child.h"
-#include "certify/process/scratch_folder.h"
-#include "certify/proofs/checker.h"
-#include "certify/proofs/claim.h"
-#include "certify/proofs/proof_route.h"
-#include "certify/result_file.h"
-#include "certify/runs/run_folder.h"
-#include "certify/stopwatch.h"
+#include "app/verify/verdict.h"
+#include "app/verify/verify_meshes.h"
+#include "app/verify/verify_shards.h"
 #include "report/meshes_report.h"
-#include "report/verify_ci.h"
-#include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
-#include "trajectory/formats/frames.h"
-#include "trajectory/text.h"
-#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {
@@ -71,44 +54,11 @@ struct VerifyArguments {
   VerifyRequest request;
   BodyWords bodies;
   std::vector<std::filesystem::path> given;  ///< files that stand for frames: lists, series
-  std::optional<std::filesystem::path> claim_out, junit;
-  bool github = false;  ///< annotations for GitHub Actions on standard output
+  VerdictOutputs outputs;
   std::string time_limit;
-  OutputOptions results;
+  std::string shard;                            ///< "3/64"
+  std::optional<std::filesystem::path> shards;  ///< the folder of --shard
 };
-
-ExitCode exit_code(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::no_contact:
-    case Verdict::proved: return ExitCode::holds;
-    case Verdict::contact:
-    case Verdict::too_near: return ExitCode::refuted;
-    case Verdict::undecided: return ExitCode::undecided;
-  }
-  return ExitCode::failure;
-}
-
-/// Beside the results.
-std::vector<OutputFile> outputs_of(const VerifyArguments& arguments) {
-  std::vector<OutputFile> files;
-  if (const auto& proof = arguments.request.proof) {
-    if (*proof == "-") throw UsageError("--proof -: a proof is not text; expected the name of a file");
-    files.push_back({"--proof", *proof, true});
-  }
-  if (const auto& claim = arguments.claim_out) {
-    if (*claim == "-") throw UsageError("--claim-out -: expected the name of a file");
-    files.push_back({"--claim-out", *claim});
-  }
-  if (const auto& trajectory = arguments.request.trajectory) {
-    if (*trajectory == "-") throw UsageError("--trajectory -: expected the name of a file");
-    files.push_back({"--trajectory", *trajectory, true});
-  }
-  if (const auto& junit = arguments.junit) {
-    if (*junit == "-") throw UsageError("--junit -: expected the name of a file");
-    files.push_back({"--junit", *junit});
-  }
-  return files;
-}
 
 /// What goes with --reproduce, and what does not.
 void prepare_to_reproduce(VerifyRequest& request) {
@@ -128,47 +78,6 @@ void prepare_to_reproduce(VerifyRequest& request) {
   }
 }
 
-/// The motion of a run, kept open: whoever replaces the run while it is read makes another file.
-class MotionFile {
- public:
-  explicit MotionFile(const VerifyRequest& request) {
-    if (!request.run) return;
-    path_ = trajectory_path(request.frames[0]);
-    file_.take(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  }
-
-  bool was_replaced() const {
-    struct stat opened = {}, named = {};
-    if (file_.get() < 0 || ::fstat(file_.get(), &opened) != 0) return false;
-    return ::stat(path_.c_str(), &named) != 0 || opened.st_dev != named.st_dev || opened.st_ino != named.st_ino;
-  }
-
- private:
-  std::filesystem::path path_;
-  Descriptor file_;
-};
-
-/// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
-std::string where(const VerifyRequest& request, std::string_view work, double share) {
-  const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
-  const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
-  const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
-  return fmt::format("{} {} of {}, {}", work == "look" ? "frame" : "step", number, count,
-                     on_one_line(request.frames[frame].filename().string()));
-}
-
-VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
-  const MotionFile motion(request);
-  try {
-    VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
-    route.check(outcome);
-    return outcome;
-  } catch (const std::exception&) {
-    if (!motion.was_replaced()) throw;
-    throw InputError(request.frames[0].string(), "", "was replaced while it was read; expected a run that stays");
-  }
-}
-
 /// The files that names on the command line stand for.
 void name_frames(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
@@ -184,53 +93,52 @@ void name_frames(VerifyArguments& arguments) {
   request.frames = files_of(request.reading.bodies);
 }
 
-/// Frames of one mesh, or a run.
-ExitCode verify_all(VerifyArguments& arguments, const Output& output) {
-  VerifyRequest& request = arguments.request;
-  ProofRoute route(request);
-  request.stop = &interrupted();
-  std::optional<ProgressBars> bars(std::in_place);
-  const bool told = !request.run && request.frames.size() > 2 && request.reading.bodies.empty() &&
-                    std::ranges::all_of(request.frames, is_frame_name);
-  request.progress = [&](std::string_view work, double share) {
-    bars->show(work, share, told ? where(request, work, share) : "");
-  };
-  const VerifyOutcome outcome = verify(request, route);
-  bars.reset();
-  if (arguments.claim_out && outcome.claim.cells.empty()) {
-    tell_note("no claim was written: no step was looked at");
-  } else if (arguments.claim_out) {
-    write_file(*arguments.claim_out, to_text(claim_file(outcome.claim)));
-  }
-  if (arguments.junit) write_result(*arguments.junit, report::verify_junit(request, outcome));
-  if (arguments.github) write_standard_output(report::verify_annotations(request, outcome));
-  // The JSON of 10,000 frames takes more memory than all else.
-  Json json = arguments.results.json ? report::verify_json(request, outcome) : Json::object();
-  const report::WordsWanted wanted{arguments.results.json.value_or(""), arguments.results.verbose};
-  output.write("verify", report::verify_answer(request, outcome, wanted), std::move(json));
-  return exit_code(outcome.verdict);
-}
-
 /// Files with different meshes, each at rest.
 ExitCode verify_each(VerifyRequest asked, const VerifyArguments& arguments, const Output& output,
                      const OtherMesh& error) {
-  const bool single = asked.proof || asked.trajectory || arguments.claim_out || arguments.junit || arguments.github ||
-                      asked.only_new || asked.merge_identical || asked.ignore || !asked.reading.bodies.empty();
+  const bool single = asked.proof || asked.trajectory || arguments.outputs.claim_out || arguments.outputs.junit ||
+                      arguments.outputs.github || asked.only_new || asked.merge_identical || asked.ignore ||
+                      !asked.reading.bodies.empty();
   if (single) {
     throw UsageError(
         fmt::format("--proof, --claim-out, --trajectory, --junit, --github, --only-new, --merge-identical, --ignore, "
                     "--body: are about one mesh, but {}",
                     error.what()));
   }
-  const MeshesWanted wanted{arguments.results.json.has_value(), arguments.results.verbose};
+  const MeshesWanted wanted{arguments.outputs.results.json.has_value(), arguments.outputs.results.verbose};
   const std::vector<report::MeshVerdict> meshes = verify_meshes(std::move(asked), wanted);
   output.write("verify-meshes", report::meshes_answer(meshes, wanted.details),
                wanted.json ? report::meshes_json(meshes) : Json::object());
   return exit_code(report::verdict_of(meshes));
 }
 
+/// Outputs of one process, or of the first rank; the others write none.
+std::unique_ptr<const Output> output_of(const VerifyArguments& arguments, const Ranks* ranks) {
+  const VerifyRequest& request = arguments.request;
+  if (ranks != nullptr && !ranks->is_first()) return nullptr;
+  auto inputs = request.frames;
+  inputs.insert(inputs.end(), arguments.given.begin(), arguments.given.end());
+  if (request.ignore) inputs.push_back(*request.ignore);
+  return std::make_unique<const Output>(arguments.outputs.results, inputs, files_of(request, arguments.outputs));
+}
+
+/// Of --shard, which gives no verdict of its own.
+ShardWork shard_work(const VerifyArguments& arguments) {
+  if (!arguments.shards) throw UsageError("--shard: expected -o SHARDS, the folder that all shards are written to");
+  const VerdictOutputs& outputs = arguments.outputs;
+  if (outputs.results.json || outputs.junit || outputs.claim_out || outputs.github || arguments.request.proof) {
+    throw UsageError(
+        "--json, --junit, --claim-out, --github, --proof: are about all steps; expected them with `noli merge`, not "
+        "with --shard");
+  }
+  return parse_shard(arguments.shard, *arguments.shards);
+}
+
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
+  if (arguments.shards && arguments.shard.empty() && !Ranks::are_there()) {
+    throw UsageError("-o: is the folder of --shard; expected --json OUT, which writes the result");
+  }
   request.deadline = begin_work(arguments.time_limit);
   name_frames(arguments);
   require_there(request.frames);
@@ -251,23 +159,22 @@ ExitCode run(VerifyArguments& arguments) {
   }
   request.live = request.run && is_locked(request.frames[0]);
   prepare_to_reproduce(request);
-  auto inputs = request.frames;
-  inputs.insert(inputs.end(), arguments.given.begin(), arguments.given.end());
-  if (request.ignore) inputs.push_back(*request.ignore);
-  const Output output(arguments.results, inputs, outputs_of(arguments));
-  if (arguments.github && arguments.results.json == "-") {
+  const auto ranks = arguments.shard.empty() ? Ranks::of_this_job() : nullptr;
+  const auto output = output_of(arguments, ranks.get());
+  if (arguments.outputs.github && arguments.outputs.results.json == "-") {
     throw UsageError("--github, --json -: both write to standard output; expected one of them");
   }
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
   }
-  inputs = {};  // paths of 10,000 frames are megabytes
   VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
+  if (!arguments.shard.empty()) return answer_shard(request, shard_work(arguments), *output);
+  if (ranks) return answer_in_ranks(request, arguments.shards, *ranks, arguments.outputs, output.get());
   try {
-    return verify_all(arguments, output);
+    return answer(request, arguments.outputs, *output);
   } catch (const OtherMesh& error) {
     if (!request.constant_motion) throw;
-    return verify_each(std::move(asked), arguments, output, error);
+    return verify_each(std::move(asked), arguments, *output, error);
   }
 }
 
@@ -293,13 +200,21 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   command.add_flag_callback(
       "--no-check", [&request] { request.check = false; },
       "Skip the checker, and the proof unless --proof asks for it: the verdict is then no_contact, not proved");
-  add_output_options(command, arguments.results);
-  command.add_option("--junit", arguments.junit, "Write a JUnit file, with a test case for each step")
+  add_output_options(command, arguments.outputs.results);
+  command.add_option("--junit", arguments.outputs.junit, "Write a JUnit file, with a test case for each step")
       ->type_name("OUT.xml")
       ->group(group::output);
-  command.add_flag("--github", arguments.github, "Print annotations for GitHub Actions above the result")
+  command.add_flag("--github", arguments.outputs.github, "Print annotations for GitHub Actions above the result")
       ->excludes(command.get_option("--porcelain"))
       ->group(group::output);
+  command
+      .add_option("--shard", arguments.shard,
+                  "Decide the K-th of N parts of the steps alone, for `noli merge`; needs -o")
+      ->type_name("K/N");
+  command
+      .add_option("-o,--output", arguments.shards,
+                  "The folder for what --shard or ranks of mpirun find; made if it is not there")
+      ->type_name("SHARDS");
   add_threads_option(command, request.threads);
   command
       .add_option("--max-reports", request.max_reports,
@@ -353,7 +268,7 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
   add_polygons_option(command, request.reading.polygons);
   add_keys_option(command, request.reading.keys);
   command
-      .add_option("--claim-out", arguments.claim_out,
+      .add_option("--claim-out", arguments.outputs.claim_out,
                   "Write the claim to this file; with `noli check --claim` no proof can claim less")
       ->type_name("CLAIM.json")
       ->group(group::question);

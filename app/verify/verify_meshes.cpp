@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/verify_meshes.h"
+#include "app/verify/verify_meshes.h"
 
 #include <fmt/format.h>
 

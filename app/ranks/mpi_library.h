@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What noli_mpi.so gives `noli`, which loads it only where mpirun started it: ranks that share a counter of tasks. All
+ * functions are called from the main thread, and return 0 where all went well.
+ */
+#ifndef NOLI_APP_RANKS_MPI_LIBRARY_H
+#define NOLI_APP_RANKS_MPI_LIBRARY_H
+
+#include <stdint.h>
+
+#define NOLI_MPI_VERSION 1
+#define NOLI_MPI_PROGRAM_BYTES 128
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct noli_mpi_place {
+  int32_t rank, size;      /* of all ranks */
+  int32_t on_this_machine; /* how many of them */
+};
+
+int32_t noli_mpi_version(void);
+
+/* Begins. `program`: version and commit, NOLI_MPI_PROGRAM_BYTES bytes; 1 if not all ranks have the same ones. */
+int noli_mpi_begin(const char* program, struct noli_mpi_place* place);
+/* The next task that no rank has taken yet: 0, 1, ... */
+int noli_mpi_next(uint64_t* task);
+/* Nobody takes a task any more. */
+int noli_mpi_take_no_more(void);
+/* Waits for all ranks, which call it in turn; `code` of rank 0 becomes that of all. */
+int noli_mpi_meet(int32_t* code);
+/* Ends. */
+int noli_mpi_end(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The ranks of a job that mpirun started: which one this is, and the tasks that they share out.
+//
+//   if (const auto ranks = Ranks::of_this_job()) ...
+//
+// noli_mpi.so (mpi_library.h) is loaded only in such a job, so that nothing else needs MPI. A rank that ends
+// without end() ends the whole job, with its exit code: finished tasks are on disk, and the same command does the rest.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "app/exit_code.h"
+
+namespace noli::app {
+
+class Ranks {
+ public:
+  /// Nothing if mpirun did not start this process, or started one alone. Throws UsageError when the library is missing
+  /// or does not fit, or when not all ranks are the same program; std::runtime_error when MPI fails.
+  static std::unique_ptr<Ranks> of_this_job();
+  /// Whether mpirun started this process as one of several.
+  static bool are_there();
+
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_first() const { return rank_ == 0; }
+  /// Of the threads of this machine, this rank's share.
+  int threads() const;
+
+  /// The next task that no rank has taken.
+  std::uint64_t next_task();
+  /// No rank gets a task any more.
+  void take_no_more();
+  /// Waits until all ranks are here.
+  void meet();
+  /// The same, then ends MPI. Returns the exit code of the first rank, in all of them.
+  ExitCode end(ExitCode code);
+
+ private:
+  struct Library;
+  explicit Ranks(std::unique_ptr<Library> library);
+
+  std::unique_ptr<Library> library_;
+  int rank_ = 0, size_ = 1, on_this_machine_ = 1;
+};
+
+}  // namespace noli::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The steps that shards decided, read one shard at a time.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "certify/shards/decided_steps.h"
+#include "certify/shards/shard_file.h"
+#include "certify/shards/shard_folder.h"
+#include "proofs/prover/chain.h"
+
+namespace noli {
+
+class DecidedShards : public DecidedSteps {
+ public:
+  explicit DecidedShards(ShardFolder folder) : folder_(std::move(folder)) {}
+
+  StepResult result(std::uint64_t step) override;
+  void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
+  std::optional<ListedNear> near() override;
+  std::optional<LargestDistance> largest_distance() override;
+  void require_claim(const Claim& claim) override;
+  void require_inputs(const std::vector<FrameFacts>& files) override;
+
+ private:
+  void open(std::uint64_t task);
+  std::uint64_t first() const { return task_ * steps_of_chain; }
+
+  ShardFolder folder_;
+  Json claim_;
+  std::optional<ShardReader> shard_;
+  std::uint64_t task_ = 0, step_ = 0;
+  std::map<std::uint64_t, std::string> hashes_;  ///< of the files that the shards were made from
+};
+
+}  // namespace noli

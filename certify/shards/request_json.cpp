@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/shards/request_json.h"
+
+#include <fmt/format.h>
+
+#include <noli/version.h>
+#include "trajectory/blocks/sha256.h"
+#include "trajectory/input_file.h"
+
+namespace noli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of files may have any bytes, and JSON has text: what is not ASCII is written as %XX.
+std::string escaped(const fs::path& path) {
+  std::string text;
+  for (const char c : path.string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte == '%' || byte >= 0x80 || byte < 0x20 ? fmt::format("%{:02x}", byte) : std::string(1, c);
+  }
+  return text;
+}
+
+fs::path unescaped(const std::string& text) {
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool coded = text[i] == '%' && i + 2 < text.size();
+    name += coded ? static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16)) : text[i];
+    i += coded ? 2 : 0;
+  }
+  return name;
+}
+
+Json names_json(const std::vector<fs::path>& files) {
+  Json names = Json::array();
+  for (const fs::path& file : files) names.push_back(escaped(file));
+  return names;
+}
+
+std::vector<fs::path> names_of(const Json& json) {
+  std::vector<fs::path> files;
+  for (const Json& name : json) files.push_back(unescaped(name.get<std::string>()));
+  return files;
+}
+
+Json bodies_json(const std::vector<BodyFrames>& bodies) {
+  Json list = Json::array();
+  for (const BodyFrames& body : bodies) {
+    list.push_back({{"name", escaped(body.name)}, {"frames", names_json(body.frames)}, {"still", body.still}});
+  }
+  return list;
+}
+
+Json ignore_json(const VerifyRequest& request) {
+  if (!request.ignore) return nullptr;
+  return {{"file", escaped(*request.ignore)}, {"sha256", hex(sha256(InputFile(*request.ignore).read_to_end()))}};
+}
+
+}  // namespace
+
+Json request_json(const VerifyRequest& request, bool proved) {
+  return {{"format", "noli shards"},
+          {"version", 1},
+          {"noli", {{"version", version_number()}, {"commit", version_commit()}}},
+          {"proved", proved},
+          {"dimension", or_null(request.dimension)},
+          {"max_reports", request.max_reports},
+          {"keep_going", request.keep_going},
+          {"first_only", request.first_only},
+          {"strict", request.strict},
+          {"points", request.points},
+          {"static", request.constant_motion},
+          {"merge_identical", request.merge_identical},
+          {"only_new", request.only_new},
+          {"min_distance", request.min_distance},
+          {"ring", request.ring},
+          {"ignore", ignore_json(request)},
+          {"polygons", request.reading.polygons == PolygonRule::fan ? "fan" : "refuse"},
+          {"keys", request.reading.keys},
+          {"bodies", bodies_json(request.reading.bodies)},
+          {"ordered", request.ordered},
+          {"order_notes", request.order_notes},
+          {"frames", names_json(request.frames)}};
+}
+
+VerifyRequest request_of_json(const Json& json) {
+  VerifyRequest request;
+  if (!json.at("dimension").is_null()) request.dimension = json.at("dimension").get<int>();
+  request.max_reports = json.at("max_reports").get<std::size_t>();
+  request.keep_going = json.at("keep_going").get<bool>();
+  request.first_only = json.at("first_only").get<bool>();
+  request.strict = json.at("strict").get<bool>();
+  request.points = json.at("points").get<bool>();
+  request.constant_motion = json.at("static").get<bool>();
+  request.merge_identical = json.at("merge_identical").get<bool>();
+  request.only_new = json.at("only_new").get<bool>();
+  request.min_distance = json.at("min_distance").get<double>();
+  request.ring = json.at("ring").get<std::uint32_t>();
+  if (!json.at("ignore").is_null()) request.ignore = unescaped(json.at("ignore").at("file").get<std::string>());
+  request.reading.polygons = json.at("polygons").get<std::string>() == "fan" ? PolygonRule::fan : PolygonRule::refuse;
+  request.reading.keys = json.at("keys").get<std::vector<std::string>>();
+  for (const Json& body : json.at("bodies")) {
+    request.reading.bodies.push_back({unescaped(body.at("name").get<std::string>()).string(),
+                                      names_of(body.at("frames")), body.at("still").get<bool>()});
+  }
+  request.ordered = json.at("ordered").get<std::string>();
+  request.order_notes = json.at("order_notes").get<std::vector<std::string>>();
+  request.frames = names_of(json.at("frames"));
+  request.check = json.at("proved").get<bool>();
+  return request;
+}
+
+}  // namespace noli

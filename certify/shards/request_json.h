@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The request whose steps are decided in shards, as the file request.json of their folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <noli/verify.h>
+#include "certify/json.h"
+
+namespace noli {
+
+/// Everything that the findings depend on, with the version of Noli. `proved`: proofs are made. Throws InputError when
+/// the file of --ignore cannot be read.
+Json request_json(const VerifyRequest& request, bool proved);
+
+/// The request, without threads, limits and outputs. Throws Json::exception.
+VerifyRequest request_of_json(const Json& json);
+
+}  // namespace noli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A shard: what was found in the steps of one task, and their proofs. A block file (trajectory/FORMAT.md) with the
+// content `SHRD`, version 1:
+//
+//   file   =  TASK CMIT, then the groups of the task's steps as a proof file has them (proofs/FORMAT.md, section 2)
+//   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, ends, near,
+//             largest_distance, steps, files
+//
+// `groups` says how many groups of steps follow, so a shard that was cut off is noticed before it is used.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "certify/json.h"
+#include "trajectory/blocks/block_file.h"
+
+namespace noli {
+
+/// Writes a shard under another name first, so that it is there as a whole or not at all. `proof`: a proof file of the
+/// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.
+void write_shard(const std::filesystem::path& file, Json head, const std::optional<std::filesystem::path>& proof);
+
+class ShardReader {
+ public:
+  /// Reads the head. Throws InputError when the file is not a whole shard of this request and task.
+  ShardReader(const std::filesystem::path& file, const std::string& request_hash, std::uint64_t task);
+
+  const Json& head() const { return head_; }
+  /// Passes on the blocks of a step; nothing if the shard has none. Steps are asked for in ascending order. Throws
+  /// InputError for a damaged file.
+  void blocks(std::uint64_t step, const std::function<void(FourLetters, std::string_view)>& take);
+
+ private:
+  /// Number of the step whose blocks come next; nothing at the end.
+  std::optional<std::uint64_t> next_step() const;
+
+  BlockReader reader_;
+  Json head_;
+  std::optional<Block> next_;  ///< the first block of the next group
+};
+
+}  // namespace noli

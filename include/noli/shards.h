@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Verifies frames in parts, by processes that share nothing but a folder, and joins what they found.
+//
+//   noli::verify_shard(request, {.folder = "shards", .number = 3, .of = 64});      // in each of 64 processes
+//   noli::VerifyRequest whole = noli::request_of_shards("shards");                 // in one, when all are done
+//   whole.open_proof = noli::proof_to_file("all.noli");
+//   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again
+//
+// Notation
+//   task      16 steps of the frames, the chain of proofs/prover/chain.h; tasks count from 0
+//   shard     the file of a finished task: what was found in its steps, and their proof
+//   shard K of N   the tasks K - 1, K - 1 + N, K - 1 + 2 N, ...
+//
+// The joined outcome, and the bytes of its proof, are those of one process that verifies all frames. Joining reads all
+// frames again, to say what was looked at; nothing is decided again. A process that was killed leaves the shards that it
+// had finished, and the same call then does the rest.
+//
+// Errors: as each function says. Thread safety: any thread; processes may work in one folder at the same time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include <noli/verify.h>
+
+namespace noli {
+
+/// Which tasks one process does, and where their shards are.
+struct ShardWork {
+  std::filesystem::path folder;
+  std::uint64_t number = 1, of = 1;
+  /// The tasks one after another instead, ascending; nothing when there are no more.
+  std::function<std::optional<std::uint64_t>()> next_task = {};
+  /// Called when no task after those that were given is needed: something touches.
+  std::function<void()> no_more = {};
+};
+
+struct ShardOutcome {
+  std::uint64_t tasks_total = 0;             ///< of all frames
+  std::uint64_t done = 0;                    ///< tasks that this call finished
+  std::uint64_t there = 0;                   ///< tasks that were finished before
+  std::uint64_t not_needed = 0;              ///< tasks behind a contact
+  std::optional<std::uint64_t> first_touch;  ///< the first step, from 1, of these tasks in which something touches
+  bool interrupted = false;                  ///< by the user; tasks are missing
+  bool out_of_time = false;
+
+  bool complete() const { return !interrupted && !out_of_time; }
+};
+
+/// A folder for the shards of a request that no other request has: noli-shards-HASH in the current folder.
+std::filesystem::path usual_shard_folder(const VerifyRequest& request);
+
+/// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
+/// request has `check`, `proof`, or a least distance. Throws as run_verify(), and UsageError for what cannot be parted: runs,
+/// frames that are in no regular file, and shards of another request in the folder.
+ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
+
+/// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,
+/// damaged, or was made from other files. Whether and how a proof is written, threads and limits are for the caller to
+/// set. Throws InputError when the folder has no shards of this version.
+VerifyRequest request_of_shards(const std::filesystem::path& folder);
+
+}  // namespace noli

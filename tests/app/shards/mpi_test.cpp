@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests `mpirun noli verify`: ranks give the answer of one process, and a job that died goes on.
+#include <signal.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/app/shards/shards_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+class InRanks : public Shards {
+ protected:
+  /// Run as a job of ranks, in a session of its own.
+  Process job(int ranks, const Words& words, const std::string& before = "") const {
+    ProcessOptions options;
+    options.program = "/bin/sh";
+    options.environment = {{"NO_COLOR", "1"},
+                           {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                           {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                           {"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
+    std::string command = before + "exec " NOLI_MPIRUN " -n " + std::to_string(ranks) + " " NOLI_COMMAND;
+    for (const std::string& word : words) command += " '" + word + "'";
+    return run_noli({"-c", command}, options);
+  }
+  Words asked_of_ranks(const Words& asked) const {
+    return joined(
+        {"verify", "--force", "-o", shards(), "--json", folder.path("all.json"), "--proof", folder.path("all.noli")},
+        asked);
+  }
+};
+
+TEST_F(InRanks, NothingTouches) {
+  const Words asked = write_motion(50);
+  const Process all = job(4, asked_of_ranks(asked));
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  expect_same_answer(whole(asked), all);
+}
+
+TEST_F(InRanks, SomethingTouches) {
+  const Words asked = write_motion(50, {20, 40});
+  const Process all = job(3, asked_of_ranks(asked));
+  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
+  expect_same_answer(whole(asked), all);
+}
+
+TEST_F(InRanks, TheUsualFolderIsRemoved) {
+  const Words asked = write_motion(20);
+  const Process all = job(2, joined({"verify"}, asked), "cd '" + folder.path("") + "' && ");
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  for (const auto& entry : fs::directory_iterator(folder.path(""))) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with("noli-shards")) << entry.path();
+  }
+}
+
+TEST_F(InRanks, WrongUsageEndsTheJob) {
+  EXPECT_EQ(job(2, {"verify", folder.path("none.ply"), folder.path("nor.ply")}).exit_code, 3);
+  const Process other = job(2, {"info", write_motion(2)[0]});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("`noli info` is for one process"), std::string::npos) << other.err;
+}
+
+/// One of the ranks is killed as soon as the first shard is there; the same command then does only what is missing.
+TEST_F(InRanks, AJobThatDiedGoesOn) {
+  const Words asked = write_motion(50);
+  const Process one = whole(asked);
+  std::mt19937 random(1);
+  for (std::uint64_t trial = 0; trial < trials(3, 50); ++trial) {
+    fs::remove_all(shards());
+    const std::string pause = "0.0" + std::to_string(random() % 10);
+    // The last process of this program that was started under this folder's name.
+    const std::string killer = "(while ! [ -e '" + shard(1) + "' ]; do sleep 0.01; done; sleep " + pause +
+                               "; kill -9 $(pgrep -n -f 'noli.*" + shards() + "')) & ";
+    job(4, asked_of_ranks(asked), killer);
+    std::map<std::string, fs::file_time_type> done;
+    for (const auto& entry : fs::directory_iterator(shards())) {
+      if (entry.path().extension() == ".shard") done[entry.path().string()] = fs::last_write_time(entry.path());
+    }
+    EXPECT_FALSE(done.empty());
+    const Process all = job(4, asked_of_ranks(asked));
+    expect_same_answer(one, all);
+    for (const auto& [file, time] : done) EXPECT_EQ(fs::last_write_time(file), time) << file;
+  }
+}
+
+}  // namespace
+}  // namespace noli::app_tests

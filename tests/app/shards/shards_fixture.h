@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Verifies one motion as a whole and in shards, and compares the answers.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/app/process.h"
+#include "tests/app/runs/simulate_fixture.h"
+#include "tests/app/scene.h"
+
+namespace noli::app_tests {
+
+using Words = std::vector<std::string>;
+
+class Shards : public testing::Test {
+ protected:
+  /// Waves of a sheet above a floor; in the frames `through`, a triangle beside it is below the floor.
+  Words write_motion(std::size_t frames, const std::set<std::size_t>& through = {}) const {
+    Words paths;
+    for (std::size_t k = 0; k < frames; ++k) {
+      std::vector<Position> points = {{-1, -1, 0}, {9, -1, 0}, {-1, 9, 0}};
+      const double depth = through.contains(k) ? -1 : 1;
+      points.insert(points.end(), {{5, 1, depth}, {5.5, 1, depth + 0.25}, {5, 1.5, depth + 0.25}});
+      for (int i = 0; i < 9; ++i) {
+        const auto x = static_cast<double>(i % 3), y = static_cast<double>(i / 3);
+        points.push_back({x, y, 1 + 0.125 * static_cast<double>((i + k) % 5)});
+      }
+      const std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2},    {3, 4, 5},   {6, 7, 9},   {7, 10, 9},
+                                                          {7, 8, 10},   {8, 11, 10}, {9, 10, 12}, {10, 13, 12},
+                                                          {10, 11, 13}, {11, 14, 13}};
+      paths.push_back(folder.write("frame_" + std::to_string(100 + k) + ".ply", ply_text(points, faces)));
+    }
+    return paths;
+  }
+
+  static Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  std::string shards() const { return folder.path("shards"); }
+  std::string shard(int task) const { return shards() + "/task_00000" + std::to_string(task) + ".shard"; }
+
+  Process whole(const Words& asked) const {
+    return run_noli(
+        joined({"verify", "--force", "--json", folder.path("one.json"), "--proof", folder.path("one.noli")}, asked));
+  }
+  Process part(const Words& asked, const std::string& which) const {
+    return run_noli(joined({"verify", "--shard", which, "-o", shards()}, asked));
+  }
+  Process merge() const {
+    return run_noli(
+        {"merge", shards(), "--force", "--json", folder.path("all.json"), "--proof", folder.path("all.noli")});
+  }
+
+  /// The JSON without the clock and the name of the proof.
+  Json answer(const std::string& name) const {
+    Json json = Json::parse(bytes_of(folder.path(name)));
+    json.erase("timing");
+    if (json.contains("proof")) json["proof"].erase("file");
+    return json;
+  }
+
+  void expect_same_answer(const Process& one, const Process& all) const {
+    EXPECT_EQ(one.exit_code, all.exit_code) << all.out << all.err;
+    EXPECT_EQ(one.verdict_line(), all.verdict_line());
+    EXPECT_EQ(answer("one.json"), answer("all.json"));
+    EXPECT_EQ(fs::exists(folder.path("one.noli")), fs::exists(folder.path("all.noli")));
+    EXPECT_TRUE(bytes_of(folder.path("one.noli")) == bytes_of(folder.path("all.noli"))) << "the proofs differ";
+  }
+
+  Folder folder;
+};
+
+}  // namespace noli::app_tests

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests `noli verify --shard` and `noli merge`: the answer of all shards is that of one process, byte for byte, and
+// shards that are not whole give none.
+#include "tests/app/shards/shards_fixture.h"
+
+#include "tests/app/sequences.h"
+
+namespace noli::app_tests {
+namespace {
+
+/// What is asked of 40 frames.
+struct Question {
+  const char* name;
+  std::set<std::size_t> through;
+  Words options;
+  int exit_code;
+};
+
+void PrintTo(const Question& question, std::ostream* out) { *out << question.name; }
+
+class AnyQuestion : public Shards, public testing::WithParamInterface<Question> {};
+
+TEST_P(AnyQuestion, HasTheAnswerOfOneProcess) {
+  const Question& question = GetParam();
+  Words asked = joined(write_motion(40, question.through), question.options);
+  if (std::string(question.name) == "ignore") {
+    asked = joined(asked, {"--ignore", folder.write("groups.json", R"({"groups": {"floor": [[0, 2]], "other": [[3, 5]],
+                                        "sheet": [[6, 14]]}, "ignore": [["floor", "other"]]})")});
+  }
+  const Process one = whole(asked);
+  EXPECT_EQ(one.exit_code, question.exit_code) << one.out << one.err;
+  for (const char* which : {"2/3", "1/3", "3/3"}) {
+    const Process process = part(asked, which);
+    EXPECT_LE(process.exit_code, 1) << process.out << process.err;
+  }
+  expect_same_answer(one, merge());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, AnyQuestion,
+    testing::Values(
+        Question{"nothing_touches", {}, {}, 0}, Question{"contact", {20}, {}, 1},
+        Question{"contact_at_a_border", {16, 17}, {}, 1},
+        Question{"keep_going", {5, 16, 17, 32, 33, 38}, {"--keep-going"}, 1},
+        Question{"few_reports", {5, 16, 32}, {"--keep-going", "--max-reports", "3"}, 1},
+        Question{"no_reports", {5, 16, 32}, {"--keep-going", "--max-reports", "0"}, 1},
+        Question{"first_only", {20}, {"--first-only"}, 1},
+        Question{"distance_holds", {}, {"--min-distance", "0.01", "--min-distance-from-ring", "2"}, 0},
+        Question{"distance_is_broken", {}, {"--min-distance", "1.1"}, 1},
+        Question{"distance_is_broken_later", {35}, {"--min-distance", "0.01", "--min-distance-from-ring", "2"}, 1},
+        Question{"at_rest", {}, {"--static"}, 0}, Question{"strict", {}, {"--strict"}, 0},
+        Question{"merged", {}, {"--merge-identical"}, 0}, Question{"ignore", {20, 30}, {}, 0},
+        Question{"only_new", {20}, {"--only-new"}, 1}, Question{"space", {}, {"--dimension", "3"}, 0}),
+    [](const auto& one) { return one.param.name; });
+
+TEST_F(Shards, OfLongSequencesHaveTheAnswerOfOneProcess) {
+  int tried = 0;
+  for (const Sequence& sequence : untouched_sequences()) {
+    if (sequence.frames.size() < 18) continue;
+    const Words asked =
+        joined(write_frames(sequence, [&](const auto& name, const auto& text) { return folder.write(name, text); }),
+               sequence.options);
+    const Process one = whole(asked);
+    ASSERT_EQ(part(asked, "1/2").exit_code, 0) << sequence.name;
+    ASSERT_EQ(part(asked, "2/2").exit_code, 0) << sequence.name;
+    expect_same_answer(one, merge());
+    fs::remove_all(shards());
+    ++tried;
+  }
+  EXPECT_GE(tried, 2);
+}
+
+TEST_F(Shards, ProofsOfShardsAreAcceptedByBothCheckers) {
+  const Words asked = write_motion(40);
+  ASSERT_EQ(part(asked, "1/1").exit_code, 0);
+  ASSERT_EQ(merge().exit_code, 0);
+  EXPECT_EQ(run_noli(joined({"check", folder.path("all.noli")}, asked)).exit_code, 0);
+  if (verified_checker_is_there()) {
+    EXPECT_EQ(run_noli(joined({"check", "--verified", folder.path("all.noli")}, asked)).exit_code, 0);
+  }
+}
+
+TEST_F(Shards, WithoutProofsGiveNoContact) {
+  const Words asked = joined(write_motion(20), {"--no-check"});
+  ASSERT_EQ(part(asked, "1/1").exit_code, 0);
+  EXPECT_EQ(merge().exit_code, 3) << "a proof was asked for";
+  const Process process = run_noli({"merge", shards()});
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_EQ(process.verdict_line().substr(0, 10), "NO CONTACT");
+}
+
+TEST_F(Shards, AreNotMadeTwice) {
+  const Words asked = write_motion(40);
+  ASSERT_EQ(part(asked, "2/3").exit_code, 0);
+  const auto before = fs::last_write_time(shard(2));
+  const Process again = part(asked, "1/1");
+  EXPECT_NE(again.out.find("2 tasks done, 1 were there"), std::string::npos) << again.out;
+  EXPECT_EQ(fs::last_write_time(shard(2)), before);
+}
+
+TEST_F(Shards, BehindAContactAreNotNeeded) {
+  const Words asked = write_motion(40, {3});
+  const Process process = part(asked, "1/1");
+  EXPECT_EQ(process.exit_code, 1);
+  EXPECT_NE(process.verdict_line().find("1 tasks done, 0 were there, 2 not needed, of 3 in all"), std::string::npos)
+      << process.out;
+  EXPECT_NE(process.verdict_line().find("something touches in step 3"), std::string::npos) << process.out;
+  expect_same_answer(whole(asked), merge());
+}
+
+TEST_F(Shards, StoppedOnesGoOn) {
+  const Words asked = write_motion(40);
+  const Process stopped = part(joined(asked, {"--time-limit", "1ms"}), "1/1");
+  EXPECT_EQ(stopped.exit_code, 2) << stopped.out;
+  EXPECT_EQ(merge().exit_code, 3);
+  EXPECT_EQ(part(asked, "1/1").exit_code, 0);
+  expect_same_answer(whole(asked), merge());
+}
+
+class SpoiltShards : public Shards {
+ protected:
+  void SetUp() override {
+    frames_ = write_motion(40);
+    ASSERT_EQ(part(frames_, "1/1").exit_code, 0);
+  }
+  void expect_refused(const std::string& words) const {
+    const Process process = merge();
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find(words), std::string::npos) << process.err;
+    EXPECT_FALSE(fs::exists(folder.path("all.json")));
+  }
+
+  Words frames_;
+};
+
+TEST_F(SpoiltShards, AMissingOneIsNamed) {
+  fs::remove(shard(2));
+  expect_refused("the shard of task 2 is missing (steps 17 to 32)");
+}
+
+TEST_F(SpoiltShards, ADoubledOneIsNamed) {
+  fs::copy_file(shard(1), shard(2), fs::copy_options::overwrite_existing);
+  expect_refused("is the shard of another task than 2");
+}
+
+TEST_F(SpoiltShards, OneOfAnotherRequestIsNamed) {
+  const std::string other = folder.path("other");
+  ASSERT_EQ(run_noli(joined({"verify", "--shard", "2/3", "-o", other, "--strict"}, frames_)).exit_code, 0);
+  fs::copy_file(other + "/task_000002.shard", shard(2), fs::copy_options::overwrite_existing);
+  expect_refused("is a shard of another request");
+}
+
+TEST_F(SpoiltShards, OneOfOtherFramesIsNamed) {
+  const std::string frame = bytes_of(frames_[20]);
+  folder.write(fs::path(frames_[20]).filename().string(), frame + "\n");  // the same motion in other bytes
+  expect_refused("is not the file that its shard was made from");
+}
+
+TEST_F(SpoiltShards, FramesThatMovedAreNamed) {
+  fs::copy_file(frames_[21], frames_[20], fs::copy_options::overwrite_existing);
+  expect_refused("is not what step 20 was decided for");
+}
+
+TEST_F(SpoiltShards, OneOfAnotherVersionIsNamed) {
+  const std::string file = shards() + "/request.json";
+  Json request = Json::parse(bytes_of(file));
+  request["noli"]["version"] = "0.0.1";
+  folder.write("shards/request.json", request.dump(2));
+  expect_refused("the shards are of Noli 0.0.1");
+}
+
+TEST_F(SpoiltShards, AnyLengthIsNoticed) {
+  const std::string all = bytes_of(shard(2));
+  for (std::size_t size = 0; size < all.size(); size += 1 + all.size() / 40) {
+    folder.write("shards/task_000002.shard", all.substr(0, size));
+    const Process process = merge();
+    EXPECT_EQ(process.exit_code, 3) << size << process.out;
+    EXPECT_NE(process.err.find("task_000002.shard"), std::string::npos) << process.err;
+  }
+}
+
+/// No byte of a shard is without a check, and none gives another answer.
+TEST_F(SpoiltShards, AnyByteIsNoticed) {
+  const std::string all = bytes_of(shard(2));
+  for (std::size_t at = 0; at < all.size(); at += 1 + all.size() / trials(60, all.size())) {
+    std::string bytes = all;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+    folder.write("shards/task_000002.shard", bytes);
+    const Process process = merge();
+    EXPECT_EQ(process.exit_code, 3) << "byte " << at << process.out;
+  }
+}
+
+TEST_F(SpoiltShards, AFolderOfAnotherRequestIsRefused) {
+  const Process process = part(joined(frames_, {"--strict"}), "1/1");
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("differs in \"strict\""), std::string::npos) << process.err;
+}
+
+TEST_F(Shards, OfSomethingElseAreRefused) {
+  const Words frames = write_motion(3);
+  for (const char* which : {"0/3", "4/3", "1", "1/0", "a/b", "1/3 "}) {
+    EXPECT_EQ(part(frames, which).exit_code, 3) << which;
+  }
+  EXPECT_EQ(run_noli(joined({"verify", "--shard", "1/1"}, frames)).exit_code, 3) << "no folder";
+  EXPECT_EQ(part(joined(frames, {"--json", folder.path("r.json")}), "1/1").exit_code, 3);
+  EXPECT_EQ(part(joined(frames, {"--proof", folder.path("r.noli")}), "1/1").exit_code, 3);
+  EXPECT_EQ(run_noli({"merge", folder.path("")}).exit_code, 3) << "no shards";
+}
+
+}  // namespace
+}  // namespace noli::app_tests
