@@ -45,6 +45,11 @@ TEST(Tutorials, Simulate) {
   expect_tutorial("docs/simulate.md", folder.path("."));
 }
 
+TEST(Tutorials, Scale) {
+  const Folder folder;
+  expect_tutorial("docs/scale.md", folder.path("."));
+}
+
 TEST(Tutorials, Prove) {
   const Folder folder;
   expect_tutorial("docs/prove.md", folder.path("."));
