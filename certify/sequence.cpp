@@ -65,9 +65,13 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   const bool meeting_before = meeting_at_end_;
   // What the chain before this one found is not known here.
   const bool any_at_begin = starts_chain(steps_) ? steps_ > 0 : meeting_at_end_;
-  if (starts_chain(steps_)) windows_.reset();
+  if (starts_chain(steps_)) {
+    windows_.reset();
+    chain_.reset();
+  }
   VerifyOptions options = step_options();
   options.prove = prove && !baseline_;
+  options.chain = &chain_;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;

@@ -37,6 +37,7 @@
 
 namespace noli {
 
+struct ChainMemory;
 struct StepProof;
 struct VerifyOptions;
 struct VerifyResult;
@@ -121,6 +122,7 @@ class SequenceVerifier {
   Mesh mesh_;
   SequenceOptions options_;
   std::unique_ptr<const WindowVerifier> windows_;  ///< with exclusions
+  std::unique_ptr<ChainMemory> chain_;             ///< without exclusions
   std::unique_ptr<const Baseline> baseline_;       ///< with only_new, once the first frame is known
   std::uint64_t steps_ = 0;
   bool meeting_at_end_ = false;  ///< some pair met in the previous step: only then can one meet as the next one begins

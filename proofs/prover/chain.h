@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 namespace noli {
 
@@ -18,5 +19,13 @@ inline constexpr std::uint64_t steps_of_chain = 16;
 
 /// Whether step k = 0, 1, ... is the first of its chain.
 constexpr bool starts_chain(std::uint64_t step) { return step % steps_of_chain == 0; }
+
+/// What verify_step() leaves for the next step of the chain: the tree, and room for all that a step needs.
+struct ChainMemory {
+  ChainMemory() = default;
+  virtual ~ChainMemory() = default;
+  ChainMemory(const ChainMemory&) = delete;
+  ChainMemory& operator=(const ChainMemory&) = delete;
+};
 
 }  // namespace noli

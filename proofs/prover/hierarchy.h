@@ -13,7 +13,10 @@
 // If on one axis the boxes of two groups are in the same strict order at t = 0 and at t = 1, the axis is a separating
 // direction for the whole step.
 //
-// The tree is balanced by the number of cells. It is made anew for each step.
+//   size     of a tree: the sum of the extents of all boxes, at both ends, over those of the root
+//
+// The tree is balanced by the number of cells. Along a chain of steps (proofs/prover/chain.h) it stays, and its boxes
+// are fitted anew, until the size has grown by so much that the walk would lose more time than making it anew takes.
 #pragma once
 
 #include <array>
@@ -133,13 +136,28 @@ class Hierarchy {
   Hierarchy(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
             int threads);
 
+  /// Fits the boxes to the next step of the same mesh. True if the tree stayed; otherwise it was made anew. The result
+  /// depends only on this tree and the input. O(n), or O(n log n) if it was made anew. Preconditions as above.
+  bool refit(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int dimension,
+             int threads);
+
   Group root() const { return {0, 0, count_}; }
   const GroupBox& box_of(std::size_t node) const { return boxes_[node]; }
   /// The cells in the order of the leaves.
   std::span<const std::uint32_t> leaf_cells() const { return {leaf_cells_.get(), count_}; }
 
  private:
+  class Fit;
+  class Builder;
+
+  void build(const Mesh& mesh, const Fit& fit, int dimension, int threads);
+  /// Fits all boxes and returns the size: at_level(groups) with each level of the top, from the root down, then
+  /// fit_group(g) for each group below it.
+  template <class AtLevel, class FitGroup>
+  double fit_groups(const Fit& fit, int threads, const AtLevel& at_level, const FitGroup& fit_group);
+
   std::uint32_t count_;
+  double size_ = 0;  ///< when it was made
   // Not vectors, as one thread would first fill them with zeros.
   std::unique_ptr<std::uint32_t[]> leaf_cells_;
   std::unique_ptr<GroupBox[]> boxes_;

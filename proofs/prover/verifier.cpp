@@ -10,6 +10,55 @@ namespace noli {
 
 namespace {
 
+/// The cells of a mesh in the order of a tree's leaves, and the vertices that they refer to.
+template <int Dim>
+class Prepared : public ChainMemory {
+ public:
+  Prepared(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
+           const VerifyOptions& options)
+      : vertices_(std::make_unique_for_overwrite<MovingVertex<Dim>[]>(mesh.vertex_count)),
+        cells_(std::make_unique_for_overwrite<StepCell<Dim>[]>(mesh.cell_count())) {
+    parallel_both(
+        options.threads, [&] { hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads); },
+        [&] { features_ = find_owners(mesh, options.strict); });
+    gather_vertices(x_t0, x_t1, options.threads);
+    gather_cells(mesh, options.threads);
+  }
+
+  /// Goes on to the next step of the same mesh.
+  void next(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1, int threads) {
+    const bool same_tree = hierarchy_->refit(mesh, x_t0, x_t1, Dim, threads);
+    gather_vertices(x_t0, x_t1, threads);
+    if (!same_tree) gather_cells(mesh, threads);
+  }
+
+  const Hierarchy& hierarchy() const { return *hierarchy_; }
+  const StepCell<Dim>* cells() const { return cells_.get(); }
+  const Leftovers& leftovers() const { return *leftovers_; }
+
+ private:
+  void gather_vertices(std::span<const Position> x_t0, std::span<const Position> x_t1, int threads) {
+    for_each_in_pieces(x_t0.size(), threads,
+                       [&](std::size_t v) { vertices_[v] = moving_vertex<Dim>(x_t0[v], x_t1[v]); });
+  }
+
+  void gather_cells(const Mesh& mesh, int threads) {
+    const auto order = hierarchy_->leaf_cells();
+    for_each_in_pieces(order.size(), threads, [&](std::size_t i) {
+      cells_[i] = {names_of(mesh, features_, order[i]), vertices_.get()};
+    });
+    leftovers_.emplace(order.size(), [this](std::size_t i) {
+      return Leftovers::NumberedShape{shape_of(cells_[i]), cells_[i].cell};
+    });
+  }
+
+  std::optional<Hierarchy> hierarchy_;
+  CellFeatures features_;
+  std::unique_ptr<MovingVertex<Dim>[]> vertices_;
+  std::unique_ptr<StepCell<Dim>[]> cells_;
+  std::optional<Leftovers> leftovers_;
+};
+
 /// One verification of one step. `Out`: Tokens, or NoTokens.
 template <int Dim, class Out>
 class Verification {
@@ -17,19 +66,21 @@ class Verification {
   Verification(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                const VerifyOptions& options)
       : options_(options), stop_(options), none_(options.max_reports, {ExactlyInStep{x_t0, x_t1, Dim}, 1}) {
-    CellFeatures features;
-    parallel_both(
-        options.threads, [&] { hierarchy_.emplace(mesh, x_t0, x_t1, Dim, options.threads); },
-        [&] { features = find_owners(mesh, options.strict); });
-    gather_vertices(x_t0, x_t1);
-    gather_cells(mesh, features);
+    prepared_ = options.chain == nullptr ? nullptr : dynamic_cast<Prepared<Dim>*>(options.chain->get());
+    if (prepared_ != nullptr) {
+      prepared_->next(mesh, x_t0, x_t1, options.threads);
+      return;
+    }
+    auto made = std::make_unique<Prepared<Dim>>(mesh, x_t0, x_t1, options);
+    prepared_ = made.get();
+    (options.chain == nullptr ? own_ : *options.chain) = std::move(made);
   }
 
   VerifyResult run() {
-    const Straight<Dim> positions(*hierarchy_, cells_.get(), *leftovers_);
+    const Straight<Dim> positions(prepared_->hierarchy(), prepared_->cells(), prepared_->leftovers());
     TaskWalk<Straight<Dim>, Out> walk(positions, options_, stop_, none_);
     Progress progress(options_);
-    const Group root = hierarchy_->root();
+    const Group root = prepared_->hierarchy().root();
     walk.cut(root.count, [&](auto& top) { return top.run({root, root}); });
     progress.begin(0, 1, walk.tasks().size());
     walk.run([&](std::size_t /*task*/) { progress.task_done(); });
@@ -46,27 +97,10 @@ class Verification {
   }
 
  private:
-  void gather_vertices(std::span<const Position> x_t0, std::span<const Position> x_t1) {
-    vertices_ = std::make_unique_for_overwrite<MovingVertex<Dim>[]>(x_t0.size());
-    for_each_in_pieces(x_t0.size(), options_.threads,
-                       [&](std::size_t v) { vertices_[v] = moving_vertex<Dim>(x_t0[v], x_t1[v]); });
-  }
-
-  void gather_cells(const Mesh& mesh, const CellFeatures& features) {
-    const auto order = hierarchy_->leaf_cells();
-    cells_ = std::make_unique_for_overwrite<StepCell<Dim>[]>(order.size());
-    for_each_in_pieces(order.size(), options_.threads, [&](std::size_t i) {
-      cells_[i] = {names_of(mesh, features, order[i]), vertices_.get()};
-    });
-    leftovers_.emplace(order.size(), [this](std::size_t i) {
-      return Leftovers::NumberedShape{shape_of(cells_[i]), cells_[i].cell};
-    });
-  }
-
   /// Joins the tokens of the tasks. Nothing if no direction separates some of the remaining parts, or it was stopped.
   std::shared_ptr<const StepProof> prove(TaskWalk<Straight<Dim>, Out>& walk) const {
     auto proof = std::make_shared<StepProof>();
-    const auto order = hierarchy_->leaf_cells();
+    const auto order = prepared_->hierarchy().leaf_cells();
     proof->leaf_cells.assign(order.begin(), order.end());
     JoinedTokens& all = proof->tokens;
     all.tokens = std::move(walk.sum().out.tokens);
@@ -92,10 +126,8 @@ class Verification {
 
   const VerifyOptions& options_;
   StopSignal stop_;
-  std::optional<Hierarchy> hierarchy_;
-  std::unique_ptr<MovingVertex<Dim>[]> vertices_;
-  std::unique_ptr<StepCell<Dim>[]> cells_;  ///< in the order of the leaves
-  std::optional<Leftovers> leftovers_;
+  std::unique_ptr<ChainMemory> own_;  ///< of a step by itself
+  Prepared<Dim>* prepared_ = nullptr;
   Tally none_;
 };
 

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace noli {
@@ -21,6 +23,35 @@ Mesh triangle_and_point() {
 }
 
 std::vector<Position> point_at(double z) { return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, z}}; }
+
+/// What a chain carries over from step to step changes no finding.
+TEST(Sequence, StepsOfAChainFindWhatEachFindsAlone) {
+  SequenceOptions options;
+  options.max_reports = 1000;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 1);
+  Mesh mesh;
+  mesh.vertex_count = 90;
+  for (VertexId v = 0; v < 90; v += 3) mesh.faces.push_back({v, v + 1, v + 2});
+  std::vector<Position> x(90);
+  for (Position& p : x) p = {place(random), place(random), place(random)};
+  SequenceVerifier chain(mesh, options);
+  std::uint64_t contacts = 0;
+  for (std::uint64_t step = 0; step < 40; ++step) {
+    std::vector<Position> next = x;
+    for (Position& p : next) p[step % 3] += 0.05 * (place(random) - 0.5);
+    options.first_step = step == 0 ? 0 : 16;  // the first of a chain, with nothing before it
+    SequenceVerifier alone(mesh, options);
+    const StepResult found = chain.step(x, next), expected = alone.step(x, next);
+    EXPECT_EQ(found.contacts, expected.contacts) << step;
+    EXPECT_EQ(found.reports, expected.reports) << step;
+    EXPECT_EQ(found.initial_reports, expected.initial_reports) << step;
+    EXPECT_EQ(found.first.has_value(), expected.first.has_value()) << step;
+    contacts += found.contact_count();
+    x = std::move(next);
+  }
+  EXPECT_GT(contacts, 0U);
+}
 
 TEST(Sequence, TheFirstFrameIsNoStep) {
   SequenceVerifier verifier(triangle_and_point(), {});

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "proofs/prover/cells/features.h"
 #include "scenes.h"
@@ -121,6 +123,54 @@ TEST(Hierarchy, AnOrderThatTurnsAroundSeparatesNothing) {
   step.face({5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {-10, 0, 0});
   const Hierarchy h = build(step);
   EXPECT_FALSE(axis_separates(h.box_of(h.root().left().node), h.box_of(h.root().right().node)));
+}
+
+/// The same mesh after the step, moved on by `by`.
+Step next_step(const Step& step, double by) {
+  Step next = step;
+  next.x_t0 = step.x_t1;
+  for (Position& x : next.x_t1) x[0] += by;
+  return next;
+}
+
+void expect_no_wrong_claim(const Step& step, const Hierarchy& hierarchy) {
+  int separated = 0, open = 0, wrong = 0;
+  const Group root = hierarchy.root();
+  check_pairs(step, hierarchy, root.left(), root.right(), separated, open, wrong);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(open + separated, 0);
+}
+
+TEST(Hierarchy, StaysWhereTheMeshMovesAsAWhole) {
+  const Step step = two_sheets(3, 15, 0.5);
+  Hierarchy hierarchy = build(step);
+  const std::vector<std::uint32_t> before(hierarchy.leaf_cells().begin(), hierarchy.leaf_cells().end());
+  const Step next = next_step(step, 0.25);
+  EXPECT_TRUE(hierarchy.refit(next.mesh, next.x_t0, next.x_t1, 3, 1));
+  EXPECT_TRUE(std::ranges::equal(hierarchy.leaf_cells(), before));
+  expect_no_wrong_claim(next, hierarchy);
+}
+
+TEST(Hierarchy, IsMadeAnewWhereItsBoxesHaveGrown) {
+  const Step step = two_sheets(3, 15, 0.5);
+  Hierarchy hierarchy = build(step);
+  Step next = next_step(step, 0);
+  std::mt19937 random(1);  // neighbours are torn apart
+  std::ranges::shuffle(next.x_t1, random);
+  EXPECT_FALSE(hierarchy.refit(next.mesh, next.x_t0, next.x_t1, 3, 1));
+  EXPECT_TRUE(std::ranges::equal(hierarchy.leaf_cells(), build(next).leaf_cells()));
+  expect_no_wrong_claim(next, hierarchy);
+}
+
+TEST(Hierarchy, FitsTheSameBoxesOnAnyNumberOfThreads) {
+  const Step step = two_sheets(3, 40, 0.5);
+  const Step next = next_step(step, 0.25);
+  Hierarchy one = build(step, 1), many = build(step, 5);
+  EXPECT_EQ(one.refit(next.mesh, next.x_t0, next.x_t1, 3, 1), many.refit(next.mesh, next.x_t0, next.x_t1, 3, 5));
+  for (std::size_t i = 0; i < 2 * one.leaf_cells().size() - 1; ++i) {
+    const GroupBox &a = one.box_of(i), &b = many.box_of(i);
+    ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << i;
+  }
 }
 
 }  // namespace
