@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 
 #include "bench/bench.h"
 #include "bench/child.h"
@@ -44,6 +45,33 @@ double verify_pair(const FramePair& pair, int threads) {
 double verify_sheets(std::size_t faces) {
   const Step step = falling_sheets(faces);
   return verify_seconds(step.mesh, step.x_t0, step.x_t1, 1);
+}
+
+constexpr std::size_t chain_faces = 100'000;
+
+/// The mean of the 15 last steps of a chain, in each of which the sheets of falling_sheets() come a sixteenth nearer.
+/// `carried`: each step takes over what the one before leaves; else each is decided by itself.
+double verify_chain(bool carried) {
+  const Step whole = falling_sheets(chain_faces);
+  const auto at = [&](double t) {
+    std::vector<Position> x = whole.x_t0;
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      for (std::size_t k = 0; k < 3; ++k) x[v][k] += t * (whole.x_t1[v][k] - x[v][k]);
+    }
+    return x;
+  };
+  std::unique_ptr<ChainMemory> chain;
+  VerifyOptions options;
+  options.threads = 1;
+  if (carried) options.chain = &chain;
+  double seconds = 0;
+  for (int step = 0; step < 16; ++step) {
+    const std::vector<Position> x_t0 = at(step / 16.0), x_t1 = at((step + 1) / 16.0);
+    const double taken =
+        seconds_of([&] { benchmark::DoNotOptimize(verify_step(whole.mesh, x_t0, x_t1, options).contacts); });
+    if (step > 0) seconds += taken / 15;
+  }
+  return seconds;
 }
 
 /// Largest peak memory of the repetitions of each benchmark, by its name.
@@ -118,6 +146,13 @@ void print_tables(const std::vector<FramePair>& pairs, const MedianReporter& rep
   for (const FramePair& pair : pairs) add_pair(pair, reporter, peaks, unit_ns, frames);
   Table growth({"sheets: faces", "1 thread, s", "ns a face", "peak MB"});
   for (const std::size_t faces : sheet_faces) add_sheets(faces, reporter, peaks, growth);
+  const double *const carried = reporter.median_ns("chain/carried"), *const alone = reporter.median_ns("chain/alone");
+  if (carried != nullptr && alone != nullptr) {
+    std::fputs(fmt::format("\nA step of a chain, {} faces: {:.4f} s; decided by itself: {:.4f} s ({:.2f})\n",
+                           chain_faces, *carried * 1e-9, *alone * 1e-9, *carried / *alone)
+                   .c_str(),
+               stdout);
+  }
   std::fputs(fmt::format("\n{}\nOne textbook query: {:.1f} ns.\n\n{}", frames.text(), unit_ns, growth.text()).c_str(),
              stdout);
 }
@@ -137,6 +172,9 @@ bool run() {
   if (has_unit) register_unit("unit/after", peaks);
   for (const std::size_t faces : sheet_faces) {
     register_measurement(sheets_name(faces), peaks, [faces] { return verify_sheets(faces); });
+  }
+  for (const bool carried : {true, false}) {
+    register_measurement(carried ? "chain/carried" : "chain/alone", peaks, [carried] { return verify_chain(carried); });
   }
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

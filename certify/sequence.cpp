@@ -65,6 +65,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   const bool meeting_before = meeting_at_end_;
   // What the chain before this one found is not known here.
   const bool any_at_begin = starts_chain(steps_) ? steps_ > 0 : meeting_at_end_;
+  const bool none_at_begin = steps_ > options_.first_step && !meeting_at_end_;
   if (starts_chain(steps_)) {
     windows_.reset();
     chain_.reset();
@@ -77,7 +78,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   ++steps_;
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
   meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
-  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, result);
+  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, none_at_begin, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   if (result.touches() && !std::ranges::equal(x_t0, x_t1)) {
     rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
@@ -109,12 +110,14 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
 /// Drops the pairs that meet at the beginning of a step: they met at the end of the step before, and were counted
 /// there. They are the pairs that meet when everything rests at the positions of that moment. Returns whether there are
 /// any.
-bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1,
+/// `none`: there are none, as far as the steps before tell, so nothing is lost if this is stopped.
+bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
                                               StepResult& result) {
   VerifyOptions options = step_options();
   options.first_only = false;
   options.max_reports = 0;
   const VerifyResult resting = verify_between(x_t0, x_t0, options);
+  if (none && !resting.complete) return false;
   if (resting.contact_count() > 0 && result.reports.size() == options_.max_reports) {
     VerifyOptions more = step_options();  // the dropped ones have taken places in the list
     more.max_reports += resting.contact_count();

@@ -95,7 +95,7 @@ void Verification::search_proof(StepProofs& proof, const MotionStep& step, const
 
 void Verification::note_no_proof() {
   outcome_.no_proof = true;
-  outcome_.complete = !request_.needs_proof();
+  outcome_.complete = request_.only || !request_.needs_proof();  // with `only`, whoever joins the steps decides
 }
 
 void Verification::note_distance() {

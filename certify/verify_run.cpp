@@ -175,6 +175,7 @@ class SequenceVerification : private Verification {
         if (is_read(k)) source_->look_at(k);
         tell("look", static_cast<double>(k + 1) / static_cast<double>(count));
       }
+      if (request_.decided) request_.decided->set_inputs(source_->facts());
     } catch (const Stopped&) {
       stopped();
     }
@@ -236,7 +237,7 @@ class SequenceVerification : private Verification {
     if (request_.only_new && !find_baseline()) return;
     labels_ = labels_of_frames(verifier_->mesh(), exclusions(), outcome_.baseline);
     outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
-    if (request_.decided) request_.decided->require_claim(outcome_.claim);
+    if (request_.decided) request_.decided->set_claim(outcome_.claim);
   }
 
   /// False if it was stopped: what was found is then not all.
@@ -305,11 +306,18 @@ class SequenceVerification : private Verification {
     if (starts_chain(sequence_.step())) begin_chain();
     if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
     give_frames();
-    const StepResult result = request_.decided ? request_.decided->result(sequence_.step()) : decide();
+    const StepResult result =
+        request_.decided ? request_.decided->result(sequence_.step(), verifier_->mesh()) : decide();
     if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
-    if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(result);
+    if (request_.open_proof && (result.complete || result.touches()) && goes_to_proof(result)) prove(result);
+  }
+
+  /// Not after a step of which no proof was found. Of some steps alone, whoever joins them decides that: what comes
+  /// before these steps may leave that one out.
+  bool goes_to_proof(const StepResult& result) const {
+    return !outcome_.no_proof || (request_.only && result.touches());
   }
 
   void begin_chain() {
@@ -355,8 +363,11 @@ class SequenceVerification : private Verification {
   void prove(const StepResult& result) {
     const Stopwatch watch;
     begin_proof();
-    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;      // the checker reads no further
-    if (outcome_.near || (!result.touches() && outcome_.touches())) return;  // nor does a checker go on
+    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
+    // Nor does a checker go on. Of some steps alone, each witness may count.
+    const bool seeks_witness = result.touches() && (request_.only || !outcome_.near);
+    const bool seeks_proof = !result.touches() && !outcome_.near && !outcome_.touches();
+    if (!seeks_witness && !seeks_proof) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
@@ -392,7 +403,7 @@ class SequenceVerification : private Verification {
   void take_proof(const MotionStep& step, const StepResult& result) {
     DecidedSteps& decided = *request_.decided;
     const bool written = copy_proof(step);
-    const auto near = result.touches() ? std::nullopt : decided.near();
+    const auto near = result.touches() ? std::nullopt : decided.near(verifier_->mesh());
     if (result.touches() || near) outcome_.witnesses += written ? 1 : 0;
     if (near) {
       outcome_.near = near;
@@ -426,7 +437,6 @@ class SequenceVerification : private Verification {
       outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
     }
     outcome_.inputs = source_->take_facts();
-    if (request_.decided) request_.decided->require_inputs(outcome_.inputs);
     note_numbering();
   }
 

@@ -2,8 +2,9 @@
 //
 // noli_mpi.so: the only code that knows MPI.
 //
-// Tasks are taken from a counter in the memory of rank 0 with MPI_Fetch_and_op, for which rank 0 does nothing. Ranks
-// that wait ask every few milliseconds: MPI's own waiting would take the processors from those that work.
+// Tasks are taken from a counter in the memory of rank 0 with MPI_Fetch_and_op. On one machine, and over networks with
+// remote memory access, rank 0 does nothing for it; over others it answers when it calls noli_mpi_serve(). Ranks that
+// wait ask every few milliseconds: MPI's own waiting would take the processors from those that work.
 #include "app/ranks/mpi_library.h"
 
 #include <mpi.h>
@@ -61,8 +62,8 @@ std::int32_t noli_mpi_version(void) { return NOLI_MPI_VERSION; }
 
 int noli_mpi_begin(const char* program, noli_mpi_place* place) {
   int level = 0;
-  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS) return 2;
-  if (level < MPI_THREAD_FUNNELED) return 3;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level) != MPI_SUCCESS) return 2;
+  if (level < MPI_THREAD_SERIALIZED) return 3;
   MPI_Comm_rank(MPI_COMM_WORLD, &job().rank);
   MPI_Comm_size(MPI_COMM_WORLD, &job().size);
   *place = {job().rank, job().size, ranks_on_this_machine()};
@@ -81,20 +82,25 @@ int noli_mpi_next(std::uint64_t* task) {
   return MPI_Win_flush(0, job().window) == MPI_SUCCESS ? 0 : 2;
 }
 
-int noli_mpi_take_no_more(void) {
+int noli_mpi_close_counter(void) {
   const std::uint64_t many = std::uint64_t{1} << 62;
   std::uint64_t before = 0;
   MPI_Fetch_and_op(&many, &before, MPI_UINT64_T, 0, 0, MPI_MAX, job().window);
   return MPI_Win_flush(0, job().window) == MPI_SUCCESS ? 0 : 2;
 }
 
-int noli_mpi_meet(std::int32_t* code) {
+int noli_mpi_barrier(std::int32_t* code) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(MPI_COMM_WORLD, &request);
   wait_for(request);
   MPI_Ibcast(code, 1, MPI_INT32_T, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
   return 0;
+}
+
+void noli_mpi_serve(void) {
+  int there = 0;
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
 }
 
 int noli_mpi_end(void) {

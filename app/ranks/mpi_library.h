@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * What noli_mpi.so gives `noli`, which loads it only where mpirun started it: ranks that share a counter of tasks. All
- * functions are called from the main thread, and return 0 where all went well.
+ * functions are called one at a time, and return 0 where all went well.
  */
-#ifndef NOLI_APP_RANKS_MPI_LIBRARY_H
-#define NOLI_APP_RANKS_MPI_LIBRARY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,15 +25,15 @@ int32_t noli_mpi_version(void);
 int noli_mpi_begin(const char* program, struct noli_mpi_place* place);
 /* The next task that no rank has taken yet: 0, 1, ... */
 int noli_mpi_next(uint64_t* task);
-/* Nobody takes a task any more. */
-int noli_mpi_take_no_more(void);
+/* Closes the counter: what noli_mpi_next() gives from now on is more than any task. */
+int noli_mpi_close_counter(void);
 /* Waits for all ranks, which call it in turn; `code` of rank 0 becomes that of all. */
-int noli_mpi_meet(int32_t* code);
+int noli_mpi_barrier(int32_t* code);
+/* Lets MPI answer other ranks. From any thread, between other calls. */
+void noli_mpi_serve(void);
 /* Ends. */
 int noli_mpi_end(void);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

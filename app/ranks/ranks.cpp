@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -20,10 +21,17 @@
 namespace noli::app {
 namespace {
 
-/// As the environment of a process that mpirun started tells it; 1 for all others.
+int number_in_environment(const char* name) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? 0 : std::atoi(text);
+}
+
+/// As the environment of a process that mpirun or srun started as part of an MPI job tells it; 0 for all others.
 int ranks_in_environment() {
-  const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  return size == nullptr ? 1 : std::atoi(size);
+  const char* const wanted = std::getenv("NOLI_MPI");
+  if (wanted != nullptr && std::string(wanted) == "0") return 0;
+  const int of_srun = std::getenv("PMIX_RANK") == nullptr ? 0 : number_in_environment("SLURM_NTASKS");
+  return std::max({0, number_in_environment("OMPI_COMM_WORLD_SIZE"), number_in_environment("PMI_SIZE"), of_srun});
 }
 
 /// Where it was built, or where it is installed.
@@ -57,8 +65,9 @@ struct Ranks::Library {
     if (version() != NOLI_MPI_VERSION) throw UsageError("noli_mpi.so is of another version of Noli");
     find(begin, "noli_mpi_begin");
     find(next, "noli_mpi_next");
-    find(take_no_more, "noli_mpi_take_no_more");
-    find(meet, "noli_mpi_meet");
+    find(close_counter, "noli_mpi_close_counter");
+    find(barrier, "noli_mpi_barrier");
+    find(serve, "noli_mpi_serve");
     find(end, "noli_mpi_end");
   }
 
@@ -72,8 +81,9 @@ struct Ranks::Library {
   decltype(noli_mpi_version)* version = nullptr;
   decltype(noli_mpi_begin)* begin = nullptr;
   decltype(noli_mpi_next)* next = nullptr;
-  decltype(noli_mpi_take_no_more)* take_no_more = nullptr;
-  decltype(noli_mpi_meet)* meet = nullptr;
+  decltype(noli_mpi_close_counter)* close_counter = nullptr;
+  decltype(noli_mpi_barrier)* barrier = nullptr;
+  decltype(noli_mpi_serve)* serve = nullptr;
   decltype(noli_mpi_end)* end = nullptr;
 };
 
@@ -84,6 +94,10 @@ Ranks::Ranks(std::unique_ptr<Library> library) : library_(std::move(library)) {
     throw UsageError("not all ranks are the same program; expected one version and commit of Noli on all machines");
   }
   require(result);
+  if (place.size != ranks_in_environment()) {
+    throw UsageError(fmt::format("MPI knows {} ranks and the environment {}: noli_mpi.so was built for another MPI",
+                                 place.size, ranks_in_environment()));
+  }
   rank_ = place.rank;
   size_ = place.size;
   on_this_machine_ = place.on_this_machine;
@@ -91,10 +105,12 @@ Ranks::Ranks(std::unique_ptr<Library> library) : library_(std::move(library)) {
 
 Ranks::~Ranks() = default;
 
-bool Ranks::are_there() { return ranks_in_environment() > 1; }
+bool Ranks::started_by_mpirun() { return ranks_in_environment() > 1; }
+
+bool Ranks::is_mpi_job() { return ranks_in_environment() > 0; }
 
 std::unique_ptr<Ranks> Ranks::of_this_job() {
-  if (!are_there()) return nullptr;
+  if (!started_by_mpirun()) return nullptr;
   return std::unique_ptr<Ranks>(new Ranks(std::make_unique<Library>(library_file())));
 }
 
@@ -106,16 +122,23 @@ std::uint64_t Ranks::next_task() {
   return task;
 }
 
-void Ranks::take_no_more() { require(library_->take_no_more()); }
+void Ranks::serve() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_first() || now - served_ < std::chrono::milliseconds(10)) return;
+  served_ = now;
+  library_->serve();
+}
 
-void Ranks::meet() {
+void Ranks::close_counter() { require(library_->close_counter()); }
+
+void Ranks::barrier() {
   std::int32_t code = 0;
-  require(library_->meet(&code));
+  require(library_->barrier(&code));
 }
 
 ExitCode Ranks::end(ExitCode code) {
   auto of_all = static_cast<std::int32_t>(code);
-  require(library_->meet(&of_all));
+  require(library_->barrier(&of_all));
   require(library_->end());
   return static_cast<ExitCode>(of_all);
 }

@@ -8,9 +8,9 @@
 // without end() ends the whole job, with its exit code: finished tasks are on disk, and the same command does the rest.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "app/exit_code.h"
 
@@ -21,8 +21,11 @@ class Ranks {
   /// Nothing if mpirun did not start this process, or started one alone. Throws UsageError when the library is missing
   /// or does not fit, or when not all ranks are the same program; std::runtime_error when MPI fails.
   static std::unique_ptr<Ranks> of_this_job();
-  /// Whether mpirun started this process as one of several.
-  static bool are_there();
+  /// Whether mpirun started this process as one of several. Not with NOLI_MPI=0 in the environment, for a process that
+  /// one of the ranks starts.
+  static bool started_by_mpirun();
+  /// The same, or as the only one.
+  static bool is_mpi_job();
 
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -36,10 +39,13 @@ class Ranks {
 
   /// The next task that no rank has taken.
   std::uint64_t next_task();
-  /// No rank gets a task any more.
-  void take_no_more();
+  /// Answers other ranks that take tasks from the counter, now and then. From any thread, while no other function is
+  /// called.
+  void serve();
+  /// No rank gets a task from now on.
+  void close_counter();
   /// Waits until all ranks are here.
-  void meet();
+  void barrier();
   /// The same, then ends MPI. Returns the exit code of the first rank, in all of them.
   ExitCode end(ExitCode code);
 
@@ -49,6 +55,7 @@ class Ranks {
 
   std::unique_ptr<Library> library_;
   int rank_ = 0, size_ = 1, on_this_machine_ = 1;
+  std::chrono::steady_clock::time_point served_ = {};
 };
 
 }  // namespace noli::app

@@ -3,16 +3,17 @@
 #include <string>
 #include <utility>
 
-#include <noli/shards.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/verify/verdict.h"
+#include "certify/shards/request_json.h"
+#include "certify/shards/shards.h"
 
 namespace noli::app {
 namespace {
 
 constexpr const char* merge_footer =
-    "The verdict, the JSON (but for \"timing\") and the proof are those of one process that verifies all frames. The "
+    "The verdict, the JSON (except \"timing\") and the proof are those of one process that verifies all frames. The "
     "frames are read again, by the names that `noli verify --shard` was given, and no step is decided again. A shard "
     "that is missing, damaged, or of other files is an error.\n"
     "Examples:\n"
@@ -32,12 +33,11 @@ struct MergeArguments {
 ExitCode run(const MergeArguments& arguments) {
   const auto deadline = begin_work(arguments.time_limit);
   VerifyRequest request = request_of_shards(arguments.folder);
-  const bool proved = request.check;
-  if (arguments.proof && !proved) {
+  if (arguments.proof && !are_proved(request)) {
     throw UsageError("--proof: the shards were made with --no-check, without proofs; expected shards with proofs");
   }
   request.proof = arguments.proof;
-  request.check = arguments.check && proved;
+  request.check = arguments.check && request.check;
   request.threads = arguments.threads;
   request.deadline = deadline;
   std::vector<std::filesystem::path> inputs = request.frames;

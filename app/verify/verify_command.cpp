@@ -136,7 +136,10 @@ ShardWork shard_work(const VerifyArguments& arguments) {
 
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
-  if (arguments.shards && arguments.shard.empty() && !Ranks::are_there()) {
+  if (Ranks::started_by_mpirun() && !arguments.shard.empty()) {
+    throw UsageError("--shard: mpirun shares the steps out to its ranks; expected one of the two");
+  }
+  if (arguments.shards && arguments.shard.empty() && !Ranks::is_mpi_job()) {
     throw UsageError("-o: is the folder of --shard; expected --json OUT, which writes the result");
   }
   request.deadline = begin_work(arguments.time_limit);

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <regex>
+#include <string_view>
 #include <utility>
 
 #include <noli/errors.h>
@@ -16,23 +17,36 @@
 namespace noli::app {
 namespace {
 
+std::string_view verdict_of(const ShardOutcome& outcome) {
+  if (outcome.first_touch) return name(Verdict::contact);
+  if (outcome.first_near) return name(Verdict::too_near);
+  return outcome.complete() && !outcome.unproved ? "done" : name(Verdict::undecided);
+}
+
+/// "shard 3 of 64: 2 of 256 tasks done now, 1 before, ..."
+std::string place_of(const ShardWork& work, const ShardOutcome& outcome) {
+  std::string place = fmt::format("shard {} of {}: {} of {} tasks done now, {} before, {} not needed", work.number,
+                                  work.of, outcome.done, outcome.tasks_total, outcome.already_done, outcome.not_needed);
+  if (outcome.first_touch) place += fmt::format("; something touches in step {}", *outcome.first_touch);
+  if (outcome.first_near) place += fmt::format("; something comes too near in step {}", *outcome.first_near);
+  if (outcome.unproved) place += "; no proof was found of some step";
+  if (outcome.interrupted) place += "; interrupted";
+  if (outcome.out_of_time) place += "; time limit";
+  return place;
+}
+
 report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome) {
-  const bool touches = outcome.first_touch.has_value();
-  report::Answer answer(touches ? "contact" : outcome.complete() ? "done" : "undecided");
-  answer.add({"shard", fmt::format("{}/{}", work.number, work.of)});
-  answer.add({"tasks_total", outcome.tasks_total});
-  answer.add({"done", outcome.done});
-  answer.add({"there", outcome.there});
-  answer.add({"not_needed", outcome.not_needed});
-  answer.add({"first_step", touches ? fmt::format("{}", *outcome.first_touch) : "none"});
-  const std::string tasks =
-      fmt::format("shard {} of {}: {} tasks done, {} were there, {} not needed, of {} in all", work.number, work.of,
-                  outcome.done, outcome.there, outcome.not_needed, outcome.tasks_total);
-  answer.place = touches ? fmt::format("{}; something touches in step {}", tasks, *outcome.first_touch) : tasks;
-  if (outcome.interrupted) answer.place += "; interrupted";
-  if (outcome.out_of_time) answer.place += "; time limit";
-  const std::string folder = on_one_line(work.folder.string());
-  answer.next = outcome.complete() ? fmt::format("when all shards are done, noli merge {} gives the verdict.", folder)
+  const auto step = [](const auto& number) { return number ? fmt::format("{}", *number) : std::string("none"); };
+  report::Answer answer(verdict_of(outcome), {{"shard", fmt::format("{}/{}", work.number, work.of)},
+                                              {"tasks_total", outcome.tasks_total},
+                                              {"done", outcome.done},
+                                              {"already_done", outcome.already_done},
+                                              {"not_needed", outcome.not_needed},
+                                              {"first_touch", step(outcome.first_touch)},
+                                              {"first_near", step(outcome.first_near)}});
+  answer.place = place_of(work, outcome);
+  answer.next = outcome.complete() ? fmt::format("when all shards are done, noli merge {} gives the verdict.",
+                                                 on_one_line(work.folder.string()))
                                    : "the same command does what is missing.";
   return answer;
 }
@@ -54,21 +68,23 @@ ShardWork parse_shard(const std::string& text, std::filesystem::path folder) {
 ExitCode answer_in_ranks(VerifyRequest& request, std::optional<std::filesystem::path> shards, Ranks& ranks,
                          const VerdictOutputs& outputs, const Output* output) {
   request.stop = &interrupted();
-  if (request.threads == 0) request.threads = ranks.threads();
+  const int threads = request.threads;
+  if (threads == 0) request.threads = ranks.threads();
   ShardWork work{shards.value_or(usual_shard_folder(request))};
   work.next_task = [&ranks] { return std::optional(ranks.next_task()); };
-  work.no_more = [&ranks] { ranks.take_no_more(); };
+  work.no_more = [&ranks] { ranks.close_counter(); };
+  request.progress = [&ranks](std::string_view /*work*/, double /*share*/) { ranks.serve(); };
   if (!verify_shard(request, work).complete()) {
     tell_note(fmt::format("rank {} was stopped; the same command does what is missing", ranks.rank()));
     return ExitCode::undecided;
   }
-  ranks.meet();
+  ranks.barrier();
   ExitCode code = ExitCode::holds;
   if (output != nullptr) {
     VerifyRequest whole = request_of_shards(work.folder);
     whole.proof = request.proof;
     whole.check = request.check;
-    whole.threads = request.threads;
+    whole.threads = threads;  // the other ranks wait
     whole.deadline = request.deadline;
     code = answer(whole, outputs, *output);
     if (!shards && code != ExitCode::undecided) std::filesystem::remove_all(work.folder);
@@ -83,8 +99,7 @@ ExitCode answer_shard(VerifyRequest& request, const ShardWork& work, const Outpu
   const ShardOutcome outcome = verify_shard(request, work);
   bars.reset();
   output.write("verify", shard_answer(work, outcome), Json::object());
-  if (outcome.first_touch) return ExitCode::refuted;
-  return outcome.complete() ? ExitCode::holds : ExitCode::undecided;
+  return exit_code_of(outcome.first_touch || outcome.first_near, outcome.complete() && !outcome.unproved);
 }
 
 }  // namespace noli::app

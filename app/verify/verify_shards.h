@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `noli verify ... --shard K/N -o SHARDS`: decides one part of the steps, for `noli merge`.
+// `noli verify ... --shard K/N -o SHARDS`: decides one part of the steps, for `noli merge`; and `mpirun noli verify`,
+// which does both.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include <noli/shards.h>
 #include "app/exit_code.h"
 #include "app/output.h"
 #include "app/ranks/ranks.h"
 #include "app/verify/verdict.h"
+#include "certify/shards/shards.h"
 
 namespace noli::app {
 

@@ -3,9 +3,9 @@
 // The steps that shards decided, read one shard at a time.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certify/shards/decided_steps.h"
 #include "certify/shards/shard_file.h"
@@ -18,22 +18,24 @@ class DecidedShards : public DecidedSteps {
  public:
   explicit DecidedShards(ShardFolder folder) : folder_(std::move(folder)) {}
 
-  StepResult result(std::uint64_t step) override;
+  StepResult result(std::uint64_t step, const Mesh& mesh) override;
   void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
-  std::optional<ListedNear> near() override;
+  std::optional<ListedNear> near(const Mesh& mesh) override;
   std::optional<LargestDistance> largest_distance() override;
-  void require_claim(const Claim& claim) override;
-  void require_inputs(const std::vector<FrameFacts>& files) override;
+  void set_inputs(const std::vector<FrameFacts>& files) override;
+  void set_claim(const Claim& claim) override;
 
  private:
   void open(std::uint64_t task);
+  void require_inputs() const;
+  std::string file() const { return folder_.shard(task_).string(); }
   std::uint64_t first() const { return task_ * steps_of_chain; }
 
   ShardFolder folder_;
   Json claim_;
+  std::vector<FrameFacts> files_;
   std::optional<ShardReader> shard_;
   std::uint64_t task_ = 0, step_ = 0;
-  std::map<std::uint64_t, std::string> hashes_;  ///< of the files that the shards were made from
 };
 
 }  // namespace noli

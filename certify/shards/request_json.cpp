@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <stdexcept>
+
 #include <noli/version.h>
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/input_file.h"
@@ -25,11 +30,26 @@ std::string escaped(const fs::path& path) {
 fs::path unescaped(const std::string& text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool coded = text[i] == '%' && i + 2 < text.size();
-    name += coded ? static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16)) : text[i];
-    i += coded ? 2 : 0;
+    if (text[i] != '%') {
+      name += text[i];
+      continue;
+    }
+    unsigned char byte = 0;
+    const char *const digits = text.data() + i + 1, *const end = text.data() + std::min(i + 3, text.size());
+    if (std::from_chars(digits, end, byte, 16).ptr != digits + 2) throw std::invalid_argument("a name with a lone %");
+    name += static_cast<char>(byte);
+    i += 2;
   }
   return name;
+}
+
+template <class Number>
+Number between(const Json& json, Number least, Number greatest) {
+  const auto number = json.get<double>();
+  if (!(number >= static_cast<double>(least) && number <= static_cast<double>(greatest))) {
+    throw std::invalid_argument("a number out of range");
+  }
+  return json.get<Number>();
 }
 
 Json names_json(const std::vector<fs::path>& files) {
@@ -59,11 +79,14 @@ Json ignore_json(const VerifyRequest& request) {
 
 }  // namespace
 
-Json request_json(const VerifyRequest& request, bool proved) {
+bool are_proved(const VerifyRequest& request) { return request.check || request.needs_proof(); }
+
+Json request_json(const VerifyRequest& request) {
   return {{"format", "noli shards"},
           {"version", 1},
           {"noli", {{"version", version_number()}, {"commit", version_commit()}}},
-          {"proved", proved},
+          {"proved", are_proved(request)},
+          {"check", request.check},
           {"dimension", or_null(request.dimension)},
           {"max_reports", request.max_reports},
           {"keep_going", request.keep_going},
@@ -86,7 +109,7 @@ Json request_json(const VerifyRequest& request, bool proved) {
 
 VerifyRequest request_of_json(const Json& json) {
   VerifyRequest request;
-  if (!json.at("dimension").is_null()) request.dimension = json.at("dimension").get<int>();
+  if (!json.at("dimension").is_null()) request.dimension = between(json.at("dimension"), 2, 3);
   request.max_reports = json.at("max_reports").get<std::size_t>();
   request.keep_going = json.at("keep_going").get<bool>();
   request.first_only = json.at("first_only").get<bool>();
@@ -95,10 +118,12 @@ VerifyRequest request_of_json(const Json& json) {
   request.constant_motion = json.at("static").get<bool>();
   request.merge_identical = json.at("merge_identical").get<bool>();
   request.only_new = json.at("only_new").get<bool>();
-  request.min_distance = json.at("min_distance").get<double>();
-  request.ring = json.at("ring").get<std::uint32_t>();
+  request.min_distance = between(json.at("min_distance"), 0.0, std::numeric_limits<double>::max());
+  request.ring = between(json.at("ring"), std::uint32_t{1}, std::uint32_t{255});
   if (!json.at("ignore").is_null()) request.ignore = unescaped(json.at("ignore").at("file").get<std::string>());
-  request.reading.polygons = json.at("polygons").get<std::string>() == "fan" ? PolygonRule::fan : PolygonRule::refuse;
+  const auto polygons = json.at("polygons").get<std::string>();
+  if (polygons != "fan" && polygons != "refuse") throw std::invalid_argument("an unknown rule for polygons");
+  request.reading.polygons = polygons == "fan" ? PolygonRule::fan : PolygonRule::refuse;
   request.reading.keys = json.at("keys").get<std::vector<std::string>>();
   for (const Json& body : json.at("bodies")) {
     request.reading.bodies.push_back({unescaped(body.at("name").get<std::string>()).string(),
@@ -107,7 +132,7 @@ VerifyRequest request_of_json(const Json& json) {
   request.ordered = json.at("ordered").get<std::string>();
   request.order_notes = json.at("order_notes").get<std::vector<std::string>>();
   request.frames = names_of(json.at("frames"));
-  request.check = json.at("proved").get<bool>();
+  request.check = json.at("check").get<bool>();
   return request;
 }
 

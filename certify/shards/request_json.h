@@ -11,11 +11,15 @@
 
 namespace noli {
 
-/// Everything that the findings depend on, with the version of Noli. `proved`: proofs are made. Throws InputError when
-/// the file of --ignore cannot be read.
-Json request_json(const VerifyRequest& request, bool proved);
+/// Whether proofs of its steps are made.
+bool are_proved(const VerifyRequest& request);
 
-/// The request, without threads, limits and outputs. Throws Json::exception.
+/// Everything that the findings depend on, with the version of Noli. Throws InputError when the file of --ignore cannot
+/// be read.
+Json request_json(const VerifyRequest& request);
+
+/// The request, without threads, limits and outputs. Throws Json::exception and std::logic_error for what
+/// request_json() does not write.
 VerifyRequest request_of_json(const Json& json);
 
 }  // namespace noli

@@ -2,16 +2,17 @@
 #include "certify/shards/shard_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <memory>
+#include <random>
 #include <system_error>
 #include <utility>
 
 #include <noli/errors.h>
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/blocks/sha256.h"
 
 namespace noli {
 namespace {
@@ -24,9 +25,7 @@ constexpr FourLetters task_kind = four_letters("TASK");
 /// A file that vanishes unless it gets its name.
 class PartOf {
  public:
-  explicit PartOf(const fs::path& file) : file_(file), part_(file.string() + fmt::format(".{}.part", ::getpid())) {
-    fs::remove(part_);
-  }
+  explicit PartOf(const fs::path& file) : file_(file), part_(file.string() + '.' + random_word() + ".part") {}
   ~PartOf() {
     std::error_code error;
     fs::remove(part_, error);
@@ -65,6 +64,11 @@ std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
 
 }  // namespace
 
+std::string random_word() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
 void write_shard(const fs::path& file, Json head, const std::optional<fs::path>& proof) {
   const PartOf part(file);
   head["groups"] = groups_of_steps(proof);
@@ -82,20 +86,37 @@ ShardReader::ShardReader(const fs::path& file, const std::string& request_hash, 
   const std::uint64_t groups = BlockReader(file, content).look_at_commits().count;
   const auto block = reader_.next();
   if (block && block->kind == task_kind) head_ = Json::parse(block->payload, nullptr, false);
-  if (!head_.is_object() || head_.value("format", "") != "noli shard" || head_.value("version", 0) != 1) {
-    throw InputError(file.string(), "", "is no shard; expected a file that `noli verify --shard` wrote");
+  const auto has = [this](const char* member, const Json& value) {
+    return head_.is_object() && head_.contains(member) && head_[member] == value;
+  };
+  if (!has("format", "noli shard") || !has("version", 1)) {
+    throw InputError(file.string(), "", "is not a shard; expected a file that `noli verify --shard` wrote");
   }
-  if (head_.value("request", "") != request_hash) {
+  if (!has("request", request_hash)) {
     throw InputError(file.string(), "", "is a shard of another request than request.json beside it");
   }
-  if (head_.value("task", ~std::uint64_t{0}) != task) {
+  if (!has("task", task)) {
     throw InputError(file.string(), "", fmt::format("is the shard of another task than {}", task + 1));
   }
   reader_.next();  // its commit
   next_ = reader_.next();
-  if (head_.value("groups", std::uint64_t{0}) + 1 != groups || reader_.committed().groups == 0) {
+  if (!has("groups", groups - 1) || reader_.committed().groups == 0) {
     throw InputError(file.string(), "", "is cut off; remove it, and do its task again");
   }
+}
+
+std::optional<std::string> other_input(const ShardReader& shard, const std::vector<FrameFacts>& files) {
+  return reading(shard.name(), [&]() -> std::optional<std::string> {
+    const Json& known = shard.head().at("files");
+    if (known.empty()) throw std::invalid_argument("the shard does not say what it was made from");
+    for (const Json& file : known) {
+      const auto index = file.at(0).get<std::uint64_t>();
+      if (index >= files.size()) throw std::invalid_argument("the shard was made from more files");
+      const FrameFacts& facts = files[index];
+      if (!facts.looked_at || hex(facts.sha256) != file.at(1).get<std::string>()) return facts.file;
+    }
+    return std::nullopt;
+  });
 }
 
 std::optional<std::uint64_t> ShardReader::next_step() const {

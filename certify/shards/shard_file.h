@@ -4,8 +4,8 @@
 // content `SHRD`, version 1:
 //
 //   file   =  TASK CMIT, then the groups of the task's steps as a proof file has them (proofs/FORMAT.md, section 2)
-//   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, ends, near,
-//             largest_distance, steps, files
+//   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, touch, ends,
+//             near, unproved, largest_distance, steps, files
 //
 // `groups` says how many groups of steps follow, so a shard that was cut off is noticed before it is used.
 #pragma once
@@ -14,16 +14,41 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include <noli/errors.h>
+#include <noli/frames.h>
 #include "certify/json.h"
 #include "trajectory/blocks/block_file.h"
 
 namespace noli {
 
+/// What `read` reads of a file: what is not as it should be in JSON is an InputError about the file.
+template <class Read>
+auto reading(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const Json::exception& error) {
+    throw InputError(file, "", error.what());
+  } catch (const std::logic_error& error) {  // of numbers and words
+    throw InputError(file, "", error.what());
+  }
+}
+
+/// A word for the names of files, which no other process has, on this machine or another.
+std::string random_word();
+
 /// Writes a shard under another name first, so that it is there as a whole or not at all. `proof`: a proof file of the
 /// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.
 void write_shard(const std::filesystem::path& file, Json head, const std::optional<std::filesystem::path>& proof);
+
+class ShardReader;
+
+/// The name of the first of these files that is not the one that the shard was made from; nothing if all are. `files`:
+/// all files of the frames, those that the shard was made from looked at. Throws InputError.
+std::optional<std::string> other_input(const ShardReader& shard, const std::vector<FrameFacts>& files);
 
 class ShardReader {
  public:
@@ -31,6 +56,7 @@ class ShardReader {
   ShardReader(const std::filesystem::path& file, const std::string& request_hash, std::uint64_t task);
 
   const Json& head() const { return head_; }
+  const std::string& name() const { return reader_.name(); }
   /// Passes on the blocks of a step; nothing if the shard has none. Steps are asked for in ascending order. Throws
   /// InputError for a damaged file.
   void blocks(std::uint64_t step, const std::function<void(FourLetters, std::string_view)>& take);

@@ -7,6 +7,7 @@
 
 #include <noli/errors.h>
 #include <noli/version.h>
+#include "certify/shards/shard_file.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/input_file.h"
 #include "trajectory/write_file.h"
@@ -18,12 +19,15 @@ namespace fs = std::filesystem;
 
 /// Throws InputError when this program did not write it: another version may have found other things.
 Json parse_request(const std::string& text, const std::string& name) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != "noli shards" || json.value("version", 0) != 1) {
-    throw InputError(name, "", "is no request of shards; expected the folder that `noli verify --shard` wrote");
+  Json json = Json::parse(text, nullptr, false);
+  const auto has = [&](const char* member, const Json& value) {
+    return json.is_object() && json.contains(member) && json[member] == value;
+  };
+  if (!has("format", "noli shards") || !has("version", 1)) {
+    throw InputError(name, "", "is not a request of shards; expected the folder that `noli verify --shard` wrote");
   }
-  const Json noli = json.value("noli", Json::object());
-  const std::string version = noli.value("version", ""), commit = noli.value("commit", "");
+  const auto word = [&](const char* member) { return json.at("noli").at(member).get<std::string>(); };
+  const auto [version, commit] = reading(name, [&] { return std::pair(word("version"), word("commit")); });
   if (version != version_number() || commit != version_commit()) {
     throw InputError(name, "",
                      fmt::format("the shards are of Noli {} ({}), and this is {} ({}); expected the same program",
@@ -32,8 +36,28 @@ Json parse_request(const std::string& text, const std::string& name) {
   return json;
 }
 
+void make(const fs::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (folder.empty() || error || !fs::is_directory(folder, error)) {
+    throw UsageError(fmt::format("\"{}\" cannot be made{}; expected a folder for shards", on_one_line(folder.string()),
+                                 error ? ": " + error.message() : ""));
+  }
+}
+
+/// Writes the file, unless another process has done so meanwhile.
+void publish(const std::string& text, const fs::path& file) {
+  const fs::path part = file.string() + '.' + random_word() + ".part";
+  write_file(part, text);
+  std::error_code error;
+  fs::create_hard_link(part, file, error);
+  fs::remove(part);
+  if (!fs::exists(file)) replace_file(file, text);  // no hard links in this file system
+}
+
 /// The first member in which two requests differ.
 std::string difference(const Json& asked, const Json& found) {
+  if (asked.at("frames") != found.value("frames", Json())) return "frames";
   for (const auto& [key, value] : asked.items()) {
     if (!found.contains(key) || found[key] != value) return key;
   }
@@ -43,9 +67,9 @@ std::string difference(const Json& asked, const Json& found) {
 }  // namespace
 
 ShardFolder::ShardFolder(fs::path folder, const Json& request) : folder_(std::move(folder)), request_(request) {
-  fs::create_directories(folder_);
+  make(folder_);
   const std::string text = to_text(request);
-  if (!fs::exists(request_file())) replace_file(request_file(), text);
+  if (!fs::exists(request_file())) publish(text, request_file());
   const std::string there = InputFile(request_file()).read_to_end();
   if (there != text) {
     const Json other = parse_request(there, request_file().string());

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 namespace noli {
 namespace {
@@ -19,6 +22,23 @@ Value named(const Json& json, const auto& all) {
   return *found;
 }
 
+/// A whole number below `end`.
+template <class Number = std::uint64_t>
+Number whole(const Json& json, std::uint64_t end = ~std::uint64_t{0}) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() >= end) {
+    throw std::invalid_argument("a number that is not below " + std::to_string(end));
+  }
+  return static_cast<Number>(json.get<std::uint64_t>());
+}
+
+template <std::size_t Size>
+std::array<std::uint64_t, Size> counts_of(const Json& json) {
+  std::array<std::uint64_t, Size> counts{};
+  if (json.size() != Size) throw std::invalid_argument("a list of another length");
+  for (std::size_t i = 0; i < Size; ++i) counts[i] = whole(json.at(i));
+  return counts;
+}
+
 /// A time of a step.
 double time_of(const Json& json) {
   const auto time = json.get<double>();
@@ -26,14 +46,18 @@ double time_of(const Json& json) {
   return time;
 }
 
+std::uint32_t cell_of(const Json& json, const Mesh& mesh) { return whole<std::uint32_t>(json, mesh.cell_count()); }
+
 Json contact_as_json(const FeatureContact& contact) {
   return {name(contact.pair), contact.vertices, contact.first.begin, contact.first.end};
 }
 
-FeatureContact contact_of(const Json& json) {
+FeatureContact contact_of(const Json& json, const Mesh& mesh) {
   FeatureContact contact;
   contact.pair = named<FeaturePair>(json.at(0), all_feature_pairs);
-  contact.vertices = json.at(1).get<std::array<VertexId, 4>>();
+  for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
+    contact.vertices[i] = whole<VertexId>(json.at(1).at(i), mesh.vertex_count);
+  }
   contact.first = {time_of(json.at(2)), time_of(json.at(3))};
   return contact;
 }
@@ -42,8 +66,9 @@ Json first_as_json(const FirstInStep& first) {
   return {{"contact", contact_as_json(first.contact)}, {"kind", name(first.kind)}, {"time", first.time}};
 }
 
-FirstInStep first_of(const Json& json) {
-  return {contact_of(json.at("contact")), named<ContactKind>(json.at("kind"), contact_kinds), time_of(json.at("time"))};
+FirstInStep first_of(const Json& json, const Mesh& mesh) {
+  return {contact_of(json.at("contact"), mesh), named<ContactKind>(json.at("kind"), contact_kinds),
+          time_of(json.at("time"))};
 }
 
 }  // namespace
@@ -64,19 +89,19 @@ Json step_json(const StepResult& result) {
           {"goes_on", result.goes_on}};
 }
 
-StepResult step_of_json(const Json& json) {
+StepResult step_of_json(const Json& json, const Mesh& mesh) {
   StepResult result;
   result.complete = json.at("complete").get<bool>();
-  result.contacts = json.at("contacts").get<ContactCounts>();
-  result.initial_intersections = json.at("initial_intersections").get<std::uint64_t>();
-  for (const Json& contact : json.at("reports")) result.reports.push_back(contact_of(contact));
+  result.contacts = counts_of<std::tuple_size_v<ContactCounts>>(json.at("contacts"));
+  result.initial_intersections = whole(json.at("initial_intersections"));
+  for (const Json& contact : json.at("reports")) result.reports.push_back(contact_of(contact, mesh));
   for (const Json& pair : json.at("initial_reports")) {
-    result.initial_reports.push_back({pair.at(0).get<std::uint32_t>(), pair.at(1).get<std::uint32_t>()});
+    result.initial_reports.push_back({cell_of(pair.at(0), mesh), cell_of(pair.at(1), mesh)});
   }
-  result.stages.decided = json.at("stages").get<decltype(result.stages.decided)>();
-  result.obligations = json.at("obligations").get<std::uint64_t>();
-  result.cell_pairs = json.at("cell_pairs").get<std::uint64_t>();
-  if (!json.at("first").is_null()) result.first = first_of(json.at("first"));
+  result.stages.decided = counts_of<std::tuple_size_v<decltype(result.stages.decided)>>(json.at("stages"));
+  result.obligations = whole(json.at("obligations"));
+  result.cell_pairs = whole(json.at("cell_pairs"));
+  if (!json.at("first").is_null()) result.first = first_of(json.at("first"), mesh);
   result.goes_on = json.at("goes_on").get<bool>();
   return result;
 }
@@ -85,9 +110,9 @@ Json near_json(const TooNear& near, bool witnessed) {
   return {{"cells", {near.first_cell, near.second_cell}}, {"time", near.time}, {"witnessed", witnessed}};
 }
 
-ListedNear near_of_json(const Json& json) {
+ListedNear near_of_json(const Json& json, const Mesh& mesh) {
   const Json& cells = json.at("cells");
-  const TooNear pair{cells.at(0).get<std::uint32_t>(), cells.at(1).get<std::uint32_t>(), time_of(json.at("time"))};
+  const TooNear pair{cell_of(cells.at(0), mesh), cell_of(cells.at(1), mesh), time_of(json.at("time"))};
   return {0, pair, json.at("witnessed").get<bool>()};
 }
 

@@ -14,8 +14,8 @@ Json step_json(const StepResult& result);
 Json near_json(const TooNear& near, bool witnessed);
 
 /// Throw Json::exception for what the functions above do not write, and std::invalid_argument for numbers that no
-/// result has.
-StepResult step_of_json(const Json& json);
-ListedNear near_of_json(const Json& json);
+/// result about this mesh has.
+StepResult step_of_json(const Json& json, const Mesh& mesh);
+ListedNear near_of_json(const Json& json, const Mesh& mesh);
 
 }  // namespace noli

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <noli/shards.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include <noli/errors.h>
@@ -13,9 +12,11 @@
 #include "certify/proofs/claim.h"
 #include "certify/shards/decided_shards.h"
 #include "certify/shards/request_json.h"
+#include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
 #include "proofs/prover/chain.h"
 #include "trajectory/blocks/sha256.h"
+#include "trajectory/formats/frame_sequence.h"
 
 namespace noli {
 namespace {
@@ -23,21 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 void require_parts(const VerifyRequest& request) {
-  if (request.run) throw UsageError("--shard: is for frames; expected no run");
-  if (request.trajectory) throw UsageError("--trajectory: is for all frames; expected none with --shard");
+  if (request.run) throw UsageError("only frames can be verified in parts; expected no run");
+  if (request.trajectory)
+    throw UsageError("--trajectory: is about all frames; expected none when they are verified in parts");
   const bool files =
       std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
   if (request.reading.given || !files) {
-    throw UsageError("--shard: each process reads its frames; expected regular files, found something else");
+    throw UsageError("each part reads its frames by itself; expected regular files, found something else");
   }
-}
-
-bool are_proved(const VerifyRequest& request) { return request.check || request.needs_proof(); }
-
-std::uint64_t step_count(const VerifyRequest& request) {
-  const auto frames = open_all_frames(request.frames, request.reading)->count();
-  if (!frames) throw UsageError("--shard: how many frames there are is not known before the last; expected files");
-  return *frames - (request.constant_motion || *frames == 0 ? 0 : 1);
 }
 
 Json files_json(const VerifyOutcome& outcome) {
@@ -54,8 +48,9 @@ class ShardMaker {
       : request_(request),
         work_(work),
         proved_(are_proved(request)),
-        steps_(step_count(request)),
-        folder_(work.folder, request_json(request, proved_)) {
+        frames_(open_all_frames(request.frames, request.reading)),
+        steps_(step_count()),
+        folder_(work.folder, request_json(request)) {
     outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain;
   }
 
@@ -63,10 +58,7 @@ class ShardMaker {
     while (const auto task = next_task()) {
       if (*task > last_needed_) {
         ++outcome_.not_needed;
-      } else if (folder_.has(*task)) {
-        ++outcome_.there;
-        note_end(ShardReader(folder_.shard(*task), folder_.request_hash(), *task).head());
-      } else if (!make(*task)) {
+      } else if (!is_there(*task) && !make(*task)) {
         break;
       }
     }
@@ -77,6 +69,37 @@ class ShardMaker {
   std::optional<std::uint64_t> next_task() {
     const auto task = work_.next_task ? work_.next_task() : std::optional(work_.number - 1 + made_++ * work_.of);
     return task && *task < outcome_.tasks_total ? task : std::nullopt;
+  }
+
+  /// Throws InputError when there is no step.
+  std::uint64_t step_count() const {
+    const auto steps =
+        FrameSequence(*frames_, request_.constant_motion ? Motion::constant : Motion::linear).step_count();
+    if (!steps) throw UsageError("how many frames there are is known at the last one; expected files");
+    return *steps;
+  }
+
+  /// Whether there is a whole shard of the task, made from the files as they are now.
+  bool is_there(std::uint64_t task) {
+    if (!folder_.has(task)) return false;
+    try {
+      const ShardReader shard(folder_.shard(task), folder_.request_hash(), task);
+      return reading(shard.name(), [&] {
+        for (const Json& file : shard.head().at("files")) look_at(file.at(0).get<std::uint64_t>());
+        if (other_input(shard, frames_->facts())) return false;
+        note_end(shard.head());
+        ++outcome_.already_done;
+        return true;
+      });
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// A file of many frames is looked at as a whole.
+  void look_at(std::uint64_t file) {
+    const auto& facts = frames_->facts();
+    if (file < facts.size() && !facts[file].looked_at) frames_->look_at(file);
   }
 
   /// False if it was stopped: nothing is written then.
@@ -115,31 +138,32 @@ class ShardMaker {
     }
     const auto touching = std::ranges::find_if(decisions, &StepResult::touches);
     const Json touch = touching == decisions.end() ? Json() : Json(range.first + (touching - decisions.begin()));
-    return {
-        {"format", "noli shard"},
-        {"version", 1},
-        {"request", folder_.request_hash()},
-        {"task", task},
-        {"first", range.first},
-        {"end", range.end},
-        {"claim", claim_json(found.claim)},
-        {"touch", touch},
-        {"ends", decisions.size() < range.end - range.first || !found.steps.size() || found.near || !touch.is_null()},
-        {"near", near},
-        {"largest_distance", largest},
-        {"steps", steps},
-        {"files", files_json(found)}};
+    return {{"format", "noli shard"},
+            {"version", 1},
+            {"request", folder_.request_hash()},
+            {"task", task},
+            {"first", range.first},
+            {"end", range.end},
+            {"claim", claim_json(found.claim)},
+            {"touch", touch},
+            {"ends", decisions.size() < range.end - range.first || found.near || !touch.is_null()},
+            {"near", near},
+            {"unproved", found.no_proof},
+            {"largest_distance", largest},
+            {"steps", steps},
+            {"files", files_json(found)}};
   }
 
-  /// Behind a contact, nothing more is asked unless the request goes on.
+  /// After a contact, nothing more is asked unless the request goes on.
   void note_end(const Json& head) {
-    const Json touch = head.value("touch", Json());
-    if (!touch.is_null()) {
-      const auto step = touch.get<std::uint64_t>() + 1;
-      outcome_.first_touch = std::min(outcome_.first_touch.value_or(step), step);
-    }
-    if (!request_.keep_going && head.value("ends", false)) {
-      last_needed_ = std::min(last_needed_, head.value("task", last_needed_));
+    const auto lower = [](std::optional<std::uint64_t>& least, const Json& step) {
+      if (!step.is_null()) least = std::min(least.value_or(~std::uint64_t{0}), step.get<std::uint64_t>() + 1);
+    };
+    lower(outcome_.first_touch, head.at("touch"));
+    if (!head.at("near").is_null()) lower(outcome_.first_near, head.at("near").at("step"));
+    outcome_.unproved |= request_.needs_proof() && head.at("unproved").get<bool>();
+    if (!request_.keep_going && head.at("ends").get<bool>()) {
+      last_needed_ = std::min(last_needed_, head.at("task").get<std::uint64_t>());
       if (work_.no_more) work_.no_more();
     }
   }
@@ -147,6 +171,7 @@ class ShardMaker {
   const VerifyRequest& request_;
   const ShardWork& work_;
   bool proved_;
+  std::unique_ptr<FrameSource> frames_;  ///< how many there are, and whether they are what they were
   std::uint64_t steps_;
   ShardFolder folder_;
   ShardOutcome outcome_;
@@ -157,7 +182,7 @@ class ShardMaker {
 }  // namespace
 
 fs::path usual_shard_folder(const VerifyRequest& request) {
-  const std::string hash = hex(sha256(to_text(request_json(request, are_proved(request)))));
+  const std::string hash = hex(sha256(to_text(request_json(request))));
   return "noli-shards-" + hash.substr(0, 12);
 }
 
@@ -168,13 +193,11 @@ ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work) {
 
 VerifyRequest request_of_shards(const fs::path& folder) {
   ShardFolder shards(folder);
-  try {
+  return reading((folder / "request.json").string(), [&] {
     VerifyRequest request = request_of_json(shards.request());
     request.decided = std::make_shared<DecidedShards>(std::move(shards));
     return request;
-  } catch (const Json::exception& error) {
-    throw InputError((folder / "request.json").string(), "", error.what());
-  }
+  });
 }
 
 }  // namespace noli

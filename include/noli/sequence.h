@@ -117,7 +117,8 @@ class SequenceVerifier {
   void take_back(std::span<const Position> x_t0);
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
-  bool drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, StepResult& result);
+  bool drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
+                              StepResult& result);
 
   Mesh mesh_;
   SequenceOptions options_;

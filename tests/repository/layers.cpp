@@ -53,7 +53,8 @@ std::string home_of_public(const std::string& target) {
       {"noli/frames.h", "trajectory"}, {"noli/run.h", "certificates"}, {"noli/findings.h", "proofs"},
       {"noli/explain.h", "certify"},   {"noli/export.h", "certify"},   {"noli/proof.h", "certify"},
       {"noli/sequence.h", "certify"},  {"noli/simulate.h", "certify"}, {"noli/verify.h", "certify"},
-      {"noli/version.h", "certify"},   {"noli/repair.h", "certify"},   {"noli/shards.h", "certify"}};
+      {"noli/version.h", "certify"},   {"noli/repair.h", "certify"},
+  };
   const auto found = homes.find(target);
   return found == homes.end() ? "include" : found->second;
 }

@@ -72,8 +72,9 @@ TEST_F(InRanks, AJobThatDiedGoesOn) {
     fs::remove_all(shards());
     const std::string pause = "0.0" + std::to_string(random() % 10);
     // The last process of this program that was started under this folder's name.
-    const std::string killer = "(while ! [ -e '" + shard(1) + "' ]; do sleep 0.01; done; sleep " + pause +
-                               "; kill -9 $(pgrep -n -f 'noli.*" + shards() + "')) & ";
+    const std::string killer = "(for i in $(seq 1000); do [ -e '" + shard(1) +
+                               "' ] && break; sleep 0.01; done; sleep " + pause +
+                               "; kill -9 $(pgrep -n -f '^" NOLI_COMMAND ".*" + shards() + "')) & ";
     job(4, asked_of_ranks(asked), killer);
     std::map<std::string, fs::file_time_type> done;
     for (const auto& entry : fs::directory_iterator(shards())) {

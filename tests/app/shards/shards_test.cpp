@@ -5,6 +5,8 @@
 #include "tests/app/shards/shards_fixture.h"
 
 #include "tests/app/sequences.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/block_sink.h"
 
 namespace noli::app_tests {
 namespace {
@@ -30,10 +32,13 @@ TEST_P(AnyQuestion, HasTheAnswerOfOneProcess) {
   }
   const Process one = whole(asked);
   EXPECT_EQ(one.exit_code, question.exit_code) << one.out << one.err;
+  int worst = 0;
   for (const char* which : {"2/3", "1/3", "3/3"}) {
     const Process process = part(asked, which);
+    worst = std::max(worst, process.exit_code);
     EXPECT_LE(process.exit_code, 1) << process.out << process.err;
   }
+  EXPECT_EQ(worst, question.exit_code);
   expect_same_answer(one, merge());
 }
 
@@ -49,6 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
         Question{"distance_holds", {}, {"--min-distance", "0.01", "--min-distance-from-ring", "2"}, 0},
         Question{"distance_is_broken", {}, {"--min-distance", "1.1"}, 1},
         Question{"distance_is_broken_later", {35}, {"--min-distance", "0.01", "--min-distance-from-ring", "2"}, 1},
+        Question{"distance_and_contacts", {5, 20}, {"--keep-going", "--min-distance", "1.1"}, 1},
+        Question{
+            "distance_unchecked", {}, {"--no-check", "--min-distance", "0.01", "--min-distance-from-ring", "2"}, 0},
         Question{"at_rest", {}, {"--static"}, 0}, Question{"strict", {}, {"--strict"}, 0},
         Question{"merged", {}, {"--merge-identical"}, 0}, Question{"ignore", {20, 30}, {}, 0},
         Question{"only_new", {20}, {"--only-new"}, 1}, Question{"space", {}, {"--dimension", "3"}, 0}),
@@ -95,7 +103,7 @@ TEST_F(Shards, AreNotMadeTwice) {
   ASSERT_EQ(part(asked, "2/3").exit_code, 0);
   const auto before = fs::last_write_time(shard(2));
   const Process again = part(asked, "1/1");
-  EXPECT_NE(again.out.find("2 tasks done, 1 were there"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("2 of 3 tasks done now, 1 before"), std::string::npos) << again.out;
   EXPECT_EQ(fs::last_write_time(shard(2)), before);
 }
 
@@ -103,7 +111,7 @@ TEST_F(Shards, BehindAContactAreNotNeeded) {
   const Words asked = write_motion(40, {3});
   const Process process = part(asked, "1/1");
   EXPECT_EQ(process.exit_code, 1);
-  EXPECT_NE(process.verdict_line().find("1 tasks done, 0 were there, 2 not needed, of 3 in all"), std::string::npos)
+  EXPECT_NE(process.verdict_line().find("1 of 3 tasks done now, 0 before, 2 not needed"), std::string::npos)
       << process.out;
   EXPECT_NE(process.verdict_line().find("something touches in step 3"), std::string::npos) << process.out;
   expect_same_answer(whole(asked), merge());
@@ -120,6 +128,23 @@ TEST_F(Shards, StoppedOnesGoOn) {
 
 class SpoiltShards : public Shards {
  protected:
+  static constexpr FourLetters content = four_letters("SHRD");
+
+  std::vector<Block> blocks_of(const std::string& file) const {
+    BlockReader reader(fs::path(file), content);
+    std::vector<Block> blocks;
+    while (auto block = reader.next()) blocks.push_back(*block);
+    return blocks;
+  }
+  /// With the right checksums.
+  void write_shard(const std::string& file, const std::vector<Block>& blocks) const {
+    fs::remove(file);
+    BlockWriter writer(std::make_unique<FileSink>(file, FileSink::Open::create), content);
+    for (const Block& block : blocks) {
+      block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
+    }
+  }
+
   void SetUp() override {
     frames_ = write_motion(40);
     ASSERT_EQ(part(frames_, "1/1").exit_code, 0);
@@ -154,12 +179,51 @@ TEST_F(SpoiltShards, OneOfAnotherRequestIsNamed) {
 TEST_F(SpoiltShards, OneOfOtherFramesIsNamed) {
   const std::string frame = bytes_of(frames_[20]);
   folder.write(fs::path(frames_[20]).filename().string(), frame + "\n");  // the same motion in other bytes
-  expect_refused("is not the file that its shard was made from");
+  expect_refused("is not the file that ");
+}
+
+TEST_F(SpoiltShards, OnesThatAreSpoiltOrOfOtherFramesAreMadeAgain) {
+  folder.write("shards/task_000003.shard", "nothing");
+  folder.write(fs::path(frames_[20]).filename().string(), bytes_of(frames_[20]) + "\n");
+  const Process process = part(frames_, "1/1");
+  EXPECT_NE(process.out.find("2 of 3 tasks done now, 1 before"), std::string::npos) << process.out;
+  expect_same_answer(whole(frames_), merge());
+}
+
+/// Every member of the head, replaced by every kind of value, with the right checksums.
+TEST_F(SpoiltShards, AnyHeadEndsInAnAnswerOrAMessage) {
+  const std::vector<Block> blocks = blocks_of(shard(2));
+  const Json head = Json::parse(blocks[0].payload);
+  write_shard(shard(2), blocks);
+  ASSERT_EQ(merge().exit_code, 0) << "nothing was changed";
+  fs::remove(folder.path("all.json"));
+  const auto try_head = [&](const Json& other) {
+    std::vector<Block> changed = blocks;
+    changed[0].payload = other.dump();
+    write_shard(shard(2), changed);
+    const Process process = merge();
+    EXPECT_TRUE(process.exit_code == 0 || process.exit_code == 3) << other.dump().substr(0, 300) << process.err;
+    EXPECT_EQ(process.err.find("internal error"), std::string::npos) << process.err;
+  };
+  for (const auto& item : head.items()) {
+    for (const Json& value : {Json(), Json(true), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object()}) {
+      Json other = head;
+      other[item.key()] = value;
+      try_head(other);
+    }
+  }
+  for (const auto& item : head["steps"][3].items()) {
+    for (const Json& value : {Json(), Json(-1), Json("x"), Json::array({Json::array({0, 1 << 30})})}) {
+      Json other = head;
+      other["steps"][3][item.key()] = value;
+      try_head(other);
+    }
+  }
 }
 
 TEST_F(SpoiltShards, FramesThatMovedAreNamed) {
   fs::copy_file(frames_[21], frames_[20], fs::copy_options::overwrite_existing);
-  expect_refused("is not what step 20 was decided for");
+  expect_refused("is not the file that");
 }
 
 TEST_F(SpoiltShards, OneOfAnotherVersionIsNamed) {

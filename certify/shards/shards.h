@@ -41,9 +41,11 @@ struct ShardWork {
 struct ShardOutcome {
   std::uint64_t tasks_total = 0;             ///< of all frames
   std::uint64_t done = 0;                    ///< tasks that this call finished
-  std::uint64_t there = 0;                   ///< tasks that were finished before
-  std::uint64_t not_needed = 0;              ///< tasks behind a contact
+  std::uint64_t already_done = 0;            ///< tasks that were finished before, of the files as they are now
+  std::uint64_t not_needed = 0;              ///< tasks after a contact
   std::optional<std::uint64_t> first_touch;  ///< the first step, from 1, of these tasks in which something touches
+  std::optional<std::uint64_t> first_near;   ///< the same where something comes too near
+  bool unproved = false;                     ///< the request needs a proof, and none was found of some step
   bool interrupted = false;                  ///< by the user; tasks are missing
   bool out_of_time = false;
 
@@ -60,7 +62,7 @@ ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,
 /// damaged, or was made from other files. Whether and how a proof is written, threads and limits are for the caller to
-/// set. Throws InputError when the folder has no shards of this version.
+/// set. One run_verify() at a time. Throws InputError when the folder has no shards of this version.
 VerifyRequest request_of_shards(const std::filesystem::path& folder);
 
 }  // namespace noli
