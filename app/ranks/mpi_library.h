@@ -5,14 +5,12 @@
  */
 #pragma once
 
-#include <stdint.h>
+#include <cstdint>
 
 #define NOLI_MPI_VERSION 1
 #define NOLI_MPI_PROGRAM_BYTES 128
 
-#ifdef __cplusplus
 extern "C" {
-#endif
 
 struct noli_mpi_place {
   int32_t rank, size;      /* of all ranks */
@@ -33,7 +31,4 @@ int noli_mpi_barrier(int32_t* code);
 void noli_mpi_serve(void);
 /* Ends. */
 int noli_mpi_end(void);
-
-#ifdef __cplusplus
 }
-#endif

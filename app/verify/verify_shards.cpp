@@ -65,7 +65,7 @@ ShardWork parse_shard(const std::string& text, std::filesystem::path folder) {
   throw UsageError(fmt::format("--shard {}: expected K/N with 1 <= K <= N, such as 3/64", on_one_line(text)));
 }
 
-ExitCode answer_in_ranks(VerifyRequest& request, std::optional<std::filesystem::path> shards, Ranks& ranks,
+ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesystem::path>& shards, Ranks& ranks,
                          const VerdictOutputs& outputs, const Output* output) {
   request.stop = &interrupted();
   const int threads = request.threads;

@@ -13,8 +13,8 @@
 //   shard K of N   the tasks K - 1, K - 1 + N, K - 1 + 2 N, ...
 //
 // The joined outcome, and the bytes of its proof, are those of one process that verifies all frames. Joining reads all
-// frames again, to say what was looked at; nothing is decided again. A process that was killed leaves the shards that it
-// had finished, and the same call then does the rest.
+// frames again, to say what was looked at; no step is decided twice. A process that was killed leaves the shards that
+// it had finished, and the same call then does the rest.
 //
 // Errors: as each function says. Thread safety: any thread; processes may work in one folder at the same time.
 #pragma once
@@ -56,8 +56,8 @@ struct ShardOutcome {
 std::filesystem::path usual_shard_folder(const VerifyRequest& request);
 
 /// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
-/// request has `check`, `proof`, or a least distance. Throws as run_verify(), and UsageError for what cannot be parted: runs,
-/// frames that are in no regular file, and shards of another request in the folder.
+/// request has `check`, `proof`, or a least distance. Throws as run_verify(), and UsageError for what cannot be parted:
+/// runs, frames that are in no regular file, and shards of another request in the folder.
 ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,

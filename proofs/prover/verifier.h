@@ -67,8 +67,8 @@ struct VerifyOptions {
   std::function<void(double)> progress;  ///< called from any thread, one at a time, with the share done in [0, 1]
   bool prove = false;                    ///< also writes the proof that nothing touches, if nothing does
   const Baseline* baseline = nullptr;    ///< pairs of cells that are not compared; not with `prove`
-  /// What the step before left, and then this one leaves; nothing at the beginning of a chain. All steps of a chain have
-  /// the same mesh, `dimension` and `strict`. It may change `obligations`, `cell_pairs`, `stages` and the proof.
+  /// What the step before left, and then this one leaves; nothing at the beginning of a chain. All steps of a chain
+  /// have the same mesh, `dimension` and `strict`. It may change `obligations`, `cell_pairs`, `stages` and the proof.
   std::unique_ptr<ChainMemory>* chain = nullptr;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/app/process.h"
+#include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
 #include "tests/app/worked_example.h"
 #include "tests/support/real_data.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests `mpirun noli verify`: ranks give the answer of one process, and a job that died goes on.
-#include <signal.h>
-
 #include <chrono>
 #include <random>
 #include <thread>

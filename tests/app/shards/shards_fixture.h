@@ -29,7 +29,8 @@ class Shards : public testing::Test {
       const double depth = through.contains(k) ? -1 : 1;
       points.insert(points.end(), {{5, 1, depth}, {5.5, 1, depth + 0.25}, {5, 1.5, depth + 0.25}});
       for (int i = 0; i < 9; ++i) {
-        const auto x = static_cast<double>(i % 3), y = static_cast<double>(i / 3);
+        const int row = i / 3, column = i % 3;
+        const double x = column, y = row;
         points.push_back({x, y, 1 + 0.125 * static_cast<double>((i + k) % 5)});
       }
       const std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2},    {3, 4, 5},   {6, 7, 9},   {7, 10, 9},
