@@ -110,7 +110,7 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
 /// Drops the pairs that meet at the beginning of a step: they met at the end of the step before, and were counted
 /// there. They are the pairs that meet when everything rests at the positions of that moment. Returns whether there are
 /// any.
-/// `none`: there are none, as far as the steps before tell, so nothing is lost if this is stopped.
+/// `none`: the steps before show that no pair meets at the beginning. If the search is stopped, all contacts then stay.
 bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
                                               StepResult& result) {
   VerifyOptions options = step_options();

@@ -50,8 +50,8 @@ class StepProofs {
   void write(const MotionStep& step, const StepProof& proof);
   void commit();
 
-  /// Writes and commits the blocks of a step, of a proof or a witness, that were written before: `blocks` passes them
-  /// on, STEP first. False if there are none. Throws std::invalid_argument when they are about another motion.
+  /// Copies the blocks of a step from another file, and commits them. `blocks` passes on the blocks, STEP first.
+  /// Returns false if it passes on no block. Throws std::invalid_argument when they are about another motion.
   bool copy(const MotionStep& step, const BlocksOfStep& blocks);
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.

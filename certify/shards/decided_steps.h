@@ -22,8 +22,8 @@ class DecidedSteps {
   DecidedSteps(const DecidedSteps&) = delete;
   DecidedSteps& operator=(const DecidedSteps&) = delete;
 
-  /// What was found in a step of the mesh, without its proof. Throws InputError when nobody decided it, when what is
-  /// there is damaged, or when it was made from other files.
+  /// What was found in a step of the mesh, without its proof. Throws InputError when the step is missing, damaged,
+  /// or was decided for other files.
   virtual StepResult result(std::uint64_t step, const Mesh& mesh) = 0;
   /// The blocks of the proof or witness of the step that result() gave last; none if none was found. Throws as
   /// result().

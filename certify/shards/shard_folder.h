@@ -11,7 +11,6 @@
 #include <string>
 
 #include "certify/json.h"
-#include "certify/process/scratch_folder.h"
 
 namespace noli {
 

@@ -66,14 +66,16 @@ class Verification {
   Verification(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                const VerifyOptions& options)
       : options_(options), stop_(options), none_(options.max_reports, {ExactlyInStep{x_t0, x_t1, Dim}, 1}) {
-    prepared_ = options.chain == nullptr ? nullptr : dynamic_cast<Prepared<Dim>*>(options.chain->get());
+    // If memory runs out, the chain begins anew: what is half made must not be used again.
+    if (options.chain != nullptr) memory_ = std::move(*options.chain);
+    prepared_ = dynamic_cast<Prepared<Dim>*>(memory_.get());
     if (prepared_ != nullptr) {
       prepared_->next(mesh, x_t0, x_t1, options.threads);
       return;
     }
     auto made = std::make_unique<Prepared<Dim>>(mesh, x_t0, x_t1, options);
     prepared_ = made.get();
-    (options.chain == nullptr ? own_ : *options.chain) = std::move(made);
+    memory_ = std::move(made);
   }
 
   VerifyResult run() {
@@ -93,6 +95,7 @@ class Verification {
         result.complete = result.proof != nullptr || !stop_.raised();
       }
     }
+    if (options_.chain != nullptr) *options_.chain = std::move(memory_);
     return result;
   }
 
@@ -126,7 +129,7 @@ class Verification {
 
   const VerifyOptions& options_;
   StopSignal stop_;
-  std::unique_ptr<ChainMemory> own_;  ///< of a step by itself
+  std::unique_ptr<ChainMemory> memory_;
   Prepared<Dim>* prepared_ = nullptr;
   Tally none_;
 };
