@@ -205,6 +205,8 @@ class BlockFile {
   bool more() { return input_.more(); }
   /// The hash of the last committed group.
   const Sha256::Digest& group_hash() const { return last_; }
+  /// The running hash: of all committed groups.
+  const Sha256::Digest& hash() const { return running_; }
 
  private:
   void require(bool condition, std::uint64_t offset, const std::string& why) const {

@@ -52,6 +52,7 @@ class Check {
       step(proof_.as("STEP", std::move(block)), read);
     }
     require(steps_ > 0, "the proof", "a claim about no steps");
+    require(looked_at_ > 0, "the proof", "has none of the steps that are asked for");
     if (refuted_) return refuted_;
     if (in_vain_ && !asked_.enough_steps(claim_, proved_)) throw Rejected(*in_vain_);
     asked_.require_claimed(claim_, flat_);
@@ -73,11 +74,15 @@ class Check {
     const std::string list = pairs > 8 ? std::to_string(pairs) + " pairs" : text_of(claim_.excluded);
     if (pairs > 0) text += "; not compared: " + list;
     if (!compares_any(claim_, claim_.strict)) text += "; the claim is empty";
-    if (first_steps_) text += "; the first " + std::to_string(steps_) + " steps";
+    if (asked_.part()) text += "; steps " + steps();
+    if (first_steps_ && !asked_.part()) text += "; the first " + steps() + " steps";
     return text;
   }
-  std::uint64_t steps() const { return steps_; }
-  /// The first T0 and the last T1 that a proof or witness is about.
+  /// How many steps a proof or witness is about; of a part, which.
+  std::string steps() const { return asked_.text_of_steps(steps_); }
+  /// Of a part of the steps: the running hash of the whole proof, which is equal for parts of one proof alone.
+  std::optional<Sha256::Digest> whole() const { return asked_.part() ? std::optional(proof_.hash()) : std::nullopt; }
+  /// The first T0 and the last T1 of these steps.
   std::array<double, 2> times() const { return times_; }
 
  private:
@@ -137,24 +142,60 @@ class Check {
     return hash.digest();
   }
 
-  void step(Reader c, std::uint64_t read) {
-    const std::uint64_t number = c.u64();
-    c.require(number >= steps_ && (witnessed() || number == read), "a step has the wrong number");
-    for (; steps_ <= number; ++steps_) {
+  /// The payload of STEP.
+  struct Head {
+    std::uint64_t number;
+    double t0, t1;
+    std::int32_t p, q;
+    std::uint8_t kind;
+    Sha256::Digest hash;
+  };
+
+  Head read_head(Reader& c, std::uint64_t read) {
+    Head s{};
+    s.number = c.u64();
+    const bool known = s.number < known_ || s.number + 1 == 0;
+    c.require(!known && (gaps_ || s.number == read), "a step has the wrong number");
+    known_ = s.number + 1;
+    s.t0 = c.f64();
+    s.t1 = c.f64();
+    s.p = c.raw<std::int32_t>();
+    s.q = c.raw<std::int32_t>();
+    c.require(-1200 <= s.p && s.p <= 1200 && -1200 <= s.q && s.q <= 1200, "an impossible unit");
+    s.kind = c.u8();
+    c.require(s.kind <= 1, "expected a proof or a witness");
+    gaps_ = gaps_ || s.kind == 1;
+    s.hash = c.raw<Sha256::Digest>();
+    return s;
+  }
+
+  /// Reads the trajectory up to this step, which has to be about what is there. Returns whether it is flat.
+  bool find_motion(const Head& s, const Reader& c) {
+    if (asked_.part() && steps_ == 0) {
+      steps_ = s.number;
+      trajectory_->pass(steps_);
+    }
+    for (; steps_ <= s.number; ++steps_) {
       c.require(trajectory_->next(motion_), "the trajectory has no such step");
     }
-    const double t0 = c.f64(), t1 = c.f64();
-    c.require(t0 == motion_.t0 && t1 == motion_.t1, "the trajectory's step has another time");
-    times_ = {read == 0 ? t0 : times_[0], t1};
-    const auto p = c.raw<std::int32_t>(), q = c.raw<std::int32_t>();
-    c.require(-1200 <= p && p <= 1200 && -1200 <= q && q <= 1200, "an impossible unit");
-    const std::uint8_t kind = c.u8();
-    c.require(kind <= 1, "expected a proof or a witness");
-    const auto hash = c.raw<Sha256::Digest>();
-    c.end();
+    c.require(s.t0 == motion_.t0 && s.t1 == motion_.t1, "the trajectory's step has another time");
     const bool flat = is_flat();
     for (auto& x : motion_.x) x[2] = claim_.dimension == 2 ? 0 : x[2];
-    c.require(motion_.hash() == hash, "the step is about another motion than that of the trajectory");
+    c.require(motion_.hash() == s.hash, "the step is about another motion than that of the trajectory");
+    return flat;
+  }
+
+  /// The step before a part has to be about the trajectory too: so two parts have the same positions between them.
+  void step(Reader c, std::uint64_t read) {
+    const Head s = read_head(c, read);
+    const bool counts = asked_.counts(claim_, s.number), before = s.number + 1 == asked_.first();
+    const std::uint64_t next = std::max(steps_, asked_.first());
+    c.require(!counts || witnessed() || s.number == next, "a step that is asked for is missing before this one");
+    const bool flat = (counts || before) && find_motion(s, c);
+    c.end();
+    if (!counts) return pass_over(s);
+    times_ = {looked_at_ == 0 ? s.t0 : times_[0], s.t1};
+    ++looked_at_;
     // Merged vertices are at the same place at all times; they have the breakpoints of frames.
     for (std::size_t v = 0; v < claim_.same.size(); ++v) {
       const std::uint64_t i = motion_.begin[v], j = motion_.begin[claim_.same[v]];
@@ -162,13 +203,27 @@ class Check {
       const bool together = motion_.x[i] == motion_.x[j] && motion_.x[i + 1] == motion_.x[j + 1];
       c.require(!merged || together, "a merged vertex is not where the one is that stands for it");
     }
-    const Integers motion(motion_, p, q, claim_.eta, c);
-    if (kind == 1) return refute(motion, number, flat);
+    const Integers motion(motion_, s.p, s.q, claim_.eta, c);
+    if (s.kind == 1) return refute(motion, s.number, flat);
     prove(motion, c);
     if (witnessed()) return;
     flat_ = flat_ && flat;
     proved_ = steps_;
-    proved_until_ = t1;
+    proved_until_ = s.t1;
+  }
+
+  /// A later step may need the tree of one that is passed over.
+  void pass_over(const Head& s) {
+    auto block = proof_.next();
+    if (s.kind == 1) {
+      proof_.as("WITN", std::move(block));
+      return proof_.expect_commit();
+    }
+    if (block && block->kind == "TREE") {
+      passed_tree_ = std::move(block->data);
+      block = proof_.next();
+    }
+    for (; block; block = proof_.next()) proof_.as("TOKS", std::move(block));
   }
 
   bool witnessed() const { return refuted_ || in_vain_; }
@@ -184,9 +239,11 @@ class Check {
   void prove(const Integers& motion, const Reader& c) {
     auto block = proof_.next();
     if (block && block->kind == "TREE") {
-      tree_.emplace(std::move(block->data), claim_.cells);
+      passed_tree_ = std::move(block->data);
       block = proof_.next();
     }
+    if (passed_tree_) tree_.emplace(std::move(*passed_tree_), claim_.cells);
+    passed_tree_.reset();
     c.require(tree_.has_value(), "the first step has no tree");
     Obligations obligations(claim_, motion, *tree_);
     for (; block; block = proof_.next()) {
@@ -217,8 +274,11 @@ class Check {
   std::unique_ptr<Trajectory> trajectory_;
   Claim claim_;
   std::optional<Tree> tree_;
+  std::optional<Reader> passed_tree_;  ///< of a step before; not read yet
   Motion motion_;
-  std::uint64_t steps_ = 0, proved_ = 0;  ///< seen, and proved before the first witness
+  std::uint64_t known_ = 0, steps_ = 0;  ///< steps that the file knows of, and those of them in the trajectory
+  std::uint64_t looked_at_ = 0, proved_ = 0;
+  bool gaps_ = false;  ///< a witness was there, after which steps may be missing
   std::array<double, 2> times_{};
   double proved_until_ = 0;
   bool flat_ = true;          ///< the proved steps are flat

@@ -21,21 +21,25 @@ namespace noli::checker {
 extern const char* const version;  // version.cpp
 
 /// Prints the claim for programs.
-static void print_fields(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
-  std::printf("claim motion=%s dimension=%u steps=%llu strict=%d points=%d distance=%s ring=%u merged=%u",
-              motions[claim.source], claim.dimension, static_cast<unsigned long long>(steps), claim.strict ? 1 : 0,
-              claim.points ? 1 : 0, text_of(claim.eta).c_str(), claim.ring, claim.merged);
-  std::printf(" excluded=%s cells=%s empty=%d from=%s to=%s\n", text_of(claim.excluded).c_str(),
-              text_of(claim.hash).c_str(), compares_any(claim, claim.strict) ? 0 : 1, text_of(times[0]).c_str(),
-              text_of(times[1]).c_str());
+static void print_fields(const Check& check) {
+  const Claim& claim = check.claim();
+  std::printf("claim motion=%s dimension=%u steps=%s strict=%d points=%d distance=%s ring=%u merged=%u",
+              motions[claim.source], claim.dimension, check.steps().c_str(), claim.strict ? 1 : 0, claim.points ? 1 : 0,
+              text_of(claim.eta).c_str(), claim.ring, claim.merged);
+  std::printf(" excluded=%s cells=%s empty=%d from=%s to=%s", text_of(claim.excluded).c_str(),
+              text_of(claim.hash).c_str(), compares_any(claim, claim.strict) ? 0 : 1, text_of(check.times()[0]).c_str(),
+              text_of(check.times()[1]).c_str());
+  const auto whole = check.whole();
+  std::printf("%s\n", whole ? (" proof=" + text_of(*whole)).c_str() : "");
 }
 
 /// Prints the claim for people.
-static void print_claim(const Claim& claim, std::uint64_t steps, const std::array<double, 2>& times) {
+static void print_claim(const Check& check) {
+  const Claim& claim = check.claim();
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
-  std::printf("%llu steps of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n",
-              static_cast<unsigned long long>(steps), sources[claim.source], times[0] + 0.0, times[1] + 0.0,
-              claim.dimension, claim.cells.size(), claim.same.size());
+  std::printf(check.whole() ? "Steps %s" : "%s steps", check.steps().c_str());
+  std::printf(" of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n", sources[claim.source],
+              check.times()[0] + 0.0, check.times()[1] + 0.0, claim.dimension, claim.cells.size(), claim.same.size());
   std::printf("Compared: features of two different cells%s.\n", claim.strict ? ", and of one" : "");
   if (claim.points) std::printf("Vertices without a cell are points.\n");
   if (claim.merged > 0) std::printf("Merged: %u vertices, each always where another is.\n", claim.merged);
@@ -63,8 +67,8 @@ static int run(std::vector<std::string> words) {
   const auto refuted = check.go();
   const char* what = check.claim().excluded.empty() ? "nothing touches" : "nothing that is compared touches";
   std::printf("%s\n", refuted ? ("refuted: " + *refuted).c_str() : ("accepted: " + (what + check.weaker())).c_str());
-  print_fields(check.claim(), check.steps(), check.times());
-  print_claim(check.claim(), check.steps(), check.times());
+  print_fields(check);
+  print_claim(check);
   require(std::fflush(stdout) == 0 && std::ferror(stdout) == 0, "standard output", "cannot be written");
   return refuted ? 1 : 0;
 }

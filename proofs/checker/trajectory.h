@@ -89,6 +89,8 @@ class Trajectory {
   virtual ~Trajectory() = default;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
+  /// Leaves out the first steps, so many, before any was read. What is not there is left to next() to say.
+  virtual void pass(std::uint64_t steps) = 0;
   /// Whether something follows. It is not read.
   virtual bool more() = 0;
 
@@ -126,6 +128,12 @@ class FrameReader {
   /// The next frame, if there is one. Its mesh is that of the first.
   std::optional<Frame> next() { return file_ ? of_file() : of_paths(); }
   bool more() { return file_ ? file_->more() : read_ < paths_.size(); }
+  /// Leaves out some frames: files of their own are not even opened.
+  void pass(std::uint64_t frames) {
+    if (!file_) read_ += std::min(frames, paths_.size() - read_);
+    for (std::uint64_t i = 0; file_ && i < frames && next(); ++i) {
+    }
+  }
 
  private:
   std::optional<Frame> of_paths() {
@@ -191,6 +199,13 @@ class Frames : public Trajectory {
     ++step_;
     return true;
   }
+  void pass(std::uint64_t steps) override {
+    if (steps == 0) return;
+    reader_.pass(steps - 1);
+    step_ = steps;
+    if (rest_) return;
+    if (auto frame = reader_.next()) now_ = std::move(*frame);
+  }
   bool more() override { return (rest_ && step_ == 0) || reader_.more(); }
 
  private:
@@ -244,6 +259,11 @@ class Run : public Trajectory {
     file_.expect_commit();
     motion.group_hash = file_.group_hash();
     return true;
+  }
+  void pass(std::uint64_t steps) override {
+    Motion motion;
+    while (windows_ < steps && next(motion)) {
+    }
   }
   bool more() override { return file_.more(); }
 

@@ -50,13 +50,15 @@ let rests_on claim shown =
   ^ when_ shown.of_points "; vertices without a cell count"
   ^ when_ (claim.motion.dimension = 2 && not shown.flat) "; z does not count"
 
-(* Fields that are not asked by name are None, or what is least. *)
-type asked = { by_source : int option; by_dimension : int option; steps : int option; is_strict : bool;
-               with_points : bool; least : float; from_ring : int; may_merge : int;
+(* Fields that are not asked by name are None, or what is least. A part of the steps is asked as A..B or A..: from_step
+   is A, and steps the last one. *)
+type asked = { by_source : int option; by_dimension : int option; steps : int option; from_step : int; is_part : bool;
+               is_strict : bool; with_points : bool; least : float; from_ring : int; may_merge : int;
                may_exclude : (int * int) list option; of_cells : string option; may_be_empty : bool }
 
-let nothing = { by_source = None; by_dimension = None; steps = None; is_strict = false; with_points = false;
-                least = 0.0; from_ring = 1; may_merge = 0; may_exclude = None; of_cells = None; may_be_empty = false }
+let nothing = { by_source = None; by_dimension = None; steps = None; from_step = 1; is_part = false; is_strict = false;
+                with_points = false; least = 0.0; from_ring = 1; may_merge = 0; may_exclude = None; of_cells = None;
+                may_be_empty = false }
 
 let source_of asked claim = Option.value asked.by_source ~default:(if claim.source = 2 then 2 else 0)
 let dimension_of asked claim =
@@ -73,7 +75,16 @@ let require_cells who asked claim =
   let wanted = Option.value asked.of_cells ~default:claim.hash in
   require (wanted = claim.hash) who "cells" (hex claim.hash) (hex wanted)
 
-(* A number of steps is asked by name, and so many of the claim's, at least one, are enough: frame k ends step k - 1. *)
+(* How many steps, or from which to which. *)
+let steps_text asked last = (if asked.is_part then string_of_int asked.from_step ^ ".." else "") ^ string_of_int last
+
+(* Whether a step, counted from 0, is looked at; the others of a part are passed over. Frame k ends step k - 1. *)
+let counts asked claim number =
+  let ends = if claim.source = 1 && source_of asked claim = 0 then 1 else 0 in
+  not asked.is_part
+  || (asked.from_step <= number + 1 && Option.fold ~none:true ~some:(fun n -> number < n + ends) asked.steps)
+
+(* A last step is asked by name, and those up to this one, at least one, are enough. *)
 let enough_steps asked claim steps =
   let ends = if claim.source = 0 && source_of asked claim = 1 then 1 else 0 in
   match asked.steps with Some n -> steps > 0 && steps + ends >= n | None -> false
@@ -107,9 +118,9 @@ let require_claimed asked claim flat =
 (* Rejects a claim of too few steps; more: the trajectory goes on. *)
 let require_steps asked claim steps more =
   let wanted = match asked.steps with
-    | Some n -> string_of_int n | None -> "all of them, and the trajectory goes on" in
+    | Some n -> steps_text asked n | None -> "all of them, and the trajectory goes on" in
   require (if asked.steps = None then not more else enough_steps asked claim steps) "the proof" "steps"
-    (string_of_int steps) wanted
+    (steps_text asked steps) wanted
 
 (* Rejects a witness that refutes only more than what is asked. *)
 let require_refuted asked claim shown =
@@ -121,7 +132,7 @@ let require_refuted asked claim shown =
   (* Frame k is in steps k - 1 and k. *)
   let step = shown.step + (if claim.source = source then 1 else 0) in
   require (Option.fold ~none:true ~some:(fun n -> step <= n) asked.steps) "steps" (number step)
-    (number (Option.value asked.steps ~default:0));
+    (steps_text asked (Option.value asked.steps ~default:0));
   require (has >= dimension || shown.flat) "dimension" (number has) (number dimension);
   require (not shown.one_cell || asked.is_strict) "strict" "1" "0";
   require (not shown.of_points || asked.with_points) "points" "1" "0";
@@ -154,7 +165,12 @@ let with_field asked word =
     let found = List.filter (fun i -> motions.(i) = value) [0; 1; 2] in
     check (found <> []) "expected linear, rest or run"; { asked with by_source = Some (List.hd found) }
   | "dimension" -> { asked with by_dimension = Some (number 2 3 value) }
-  | "steps" -> { asked with steps = Some (number 1 mask value) }
+  | "steps" ->
+    (match String.split_on_char '.' value with
+     | first :: "" :: last ->
+       let from_step = number 1 mask first and last = String.concat "." last in
+       { asked with is_part = true; from_step; steps = if last = "" then None else Some (number from_step mask last) }
+     | _ -> { asked with steps = Some (number 1 mask value) })
   | "strict" -> { asked with is_strict = flag () }
   | "points" -> { asked with with_points = flag () }
   | "empty" -> { asked with may_be_empty = flag () }
@@ -196,11 +212,12 @@ let of_words words =
   asked
 
 (* What makes an accepted claim weaker than the one that is asked by default. first_steps: the trajectory goes on. *)
-let weaker claim steps first_steps =
+let weaker asked claim steps first_steps =
   let when_ holds text = if holds then text else "" and n = List.length claim.excluded and merged = merged claim in
   let pairs = if n > 8 then Printf.sprintf "%d pairs" n else pairs_text claim.excluded in
   when_ (claim.source = 1) "; frames at rest"
   ^ when_ (merged > 0) (Printf.sprintf "; %d merged vertices" merged)
   ^ when_ (claim.source < 2 && n > 0) ("; not compared: " ^ pairs)
   ^ when_ (not (compares_any claim claim.strict)) "; the claim is empty"
-  ^ when_ first_steps (Printf.sprintf "; the first %d steps" steps)
+  ^ when_ asked.is_part ("; steps " ^ steps_text asked steps)
+  ^ when_ (first_steps && not asked.is_part) (Printf.sprintf "; the first %d steps" steps)

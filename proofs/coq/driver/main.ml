@@ -118,7 +118,10 @@ let token c =
     let v = id c in TRing (v, [Array.to_list (many m (both id) c)])
   | _ -> fail c "the byte before this is no token"
 
-(* The tree of the proof, if it holds; known is that of the last proof. *)
+(* The last tree that the proof has: of a step that was checked, or not read yet, of one that was passed over. *)
+type last_tree = Read of Checker.group option | Unread of cursor
+
+(* The tree of the proof, if it holds; known is the last one before it. *)
 let prove file claim known read scene =
   let rec use c stack =
     if left c = 0 then stack
@@ -130,10 +133,22 @@ let prove file claim known read scene =
       "the proof of this step is not complete, or has another block than TOKS of at most 2^20 bytes";
     if kind = "TOKS" then let stack = use c stack in tokens stack (next file) in
   let kind, c = next file in let has_tree = kind = "TREE" in
-  let tree = if has_tree then Some (read_tree c 0) else known in if has_tree then finish c;
+  let read_all c = let tree = read_tree c 0 in finish c; Some tree in
+  let tree = match known with
+    | _ when has_tree -> read_all c | Read tree -> tree | Unread c -> read_all c in
   match Option.bind tree (Reading.start_read (fun v -> read (Z.to_int v)) scene) with
   | None -> fail c "there is no tree, it has not each cell once, or the step makes no sense"
-  | Some stack -> tokens stack (if has_tree then next file else (kind, c)); tree
+  | Some stack -> tokens stack (if has_tree then next file else (kind, c)); Read tree
+
+(* The last tree after a step that is passed over. *)
+let pass_over file is_witness known =
+  let rec tokens (kind, c) =
+    check c (kind = "TOKS" || kind = "CMIT") "expected a block TOKS or a commit here";
+    if kind = "TOKS" then tokens (next file) in
+  if is_witness then (ignore (expect file "WITN"); ignore (expect file "CMIT"); known)
+  else match next file with
+    | "TREE", c -> tokens (next file); Unread c
+    | block -> tokens block; known
 
 (* The witness in words, and what it shows, if it holds. *)
 let refute file claim number flat scene =
@@ -157,11 +172,12 @@ let refute file claim number flat scene =
      (if near then "are too near" else "meet"),
    { step = number; one_cell = i = j; of_points = max i j >= claim.listed; near; labels = (min a b, max a b); flat })
 
-(* What the proof has said up to a step: how many it knows of, T0 of the first and T1 of the last; how many are proved
-   before the first witness, until when, and whether they are flat. Then the first witness in words that refutes what is
-   asked, and why the first does not count that refutes another claim alone. *)
-type said = { steps : int; from : float; until : float; proved : int; proved_until : float; all_flat : bool;
-              refuted : string option; in_vain : string option }
+(* What the proof has said up to a step: how many it knows of, and how many of them the trajectory has; whether a witness
+   was there, after which some may be missing. Of the steps that were looked at: T0 of the first (nothing: there was none)
+   and T1 of the last; how many are proved before the first witness, until when, and whether they are flat. Then the first
+   witness in words that refutes what is asked, and why the first does not count that refutes another claim alone. *)
+type said = { known : int; steps : int; gaps : bool; from : float option; until : float; proved : int;
+              proved_until : float; all_flat : bool; refuted : string option; in_vain : string option }
 
 let witnessed said = said.refuted <> None || said.in_vain <> None
 
@@ -176,64 +192,90 @@ let conclude asked claim said =
     ({ said with steps = said.proved; until = said.proved_until }, said.in_vain <> None || claim.motion.more ())
   end
 
-(* The steps that follow; tree is that of the last proof step. *)
+(* The motion of a step, of a trajectory that has come to another one. *)
+let find_motion c asked claim came_to number t0 t1 hash =
+  let rec go_on k = match claim.motion.next () with
+    | Some m -> if k < number then go_on (k + 1) else m
+    | None -> fail c "the trajectory has no such step" in
+  if asked.is_part && came_to = 0 then claim.motion.pass number;
+  let m = go_on (if asked.is_part && came_to = 0 then number else came_to) in
+  check c (t0 = m.t0 && t1 = m.t1 && t0 < t1) "the trajectory's step has another time";
+  check c (hash = Lazy.force m.hash) "the step is about another motion than the trajectory's";
+  m
+
+(* The steps that follow; tree is the last one. The step before a part has to be about the trajectory too: so two parts
+   have the same positions between them. *)
 let rec check_steps file asked claim tree said =
-  let seen = said.steps in
   match next file with
-  | "", c -> check c (seen > 0) "a claim about no steps"; conclude asked claim said
+  | "", c ->
+    check c (said.known > 0) "a claim about no steps";
+    check c (said.from <> None) "the proof has none of the steps that are asked for"; conclude asked claim said
   | kind, c ->
     let number = if kind = "STEP" then u64 c else fail c "expected a block STEP" in
-    check c (number >= seen && (witnessed said || number = seen)) "a step has the wrong number";
-    let rec go_on k = match claim.motion.next () with
-      | Some m -> if k < number then go_on (k + 1) else m
-      | None -> fail c "the trajectory has no such step" in
+    check c (number >= said.known && (said.gaps || number = said.known)) "a step has the wrong number";
     (* What a large step before this one needed is given back first. *)
     if (Gc.quick_stat ()).heap_words > 1 lsl 23 then Gc.full_major ();
-    let m = go_on seen and t0, t1 = both f64 c in let p, q = both i32 c in
-    let is_witness = u8 c in
-    check c (t0 = m.t0 && t1 = m.t1 && t0 < t1) "the trajectory's step has another time";
-    check c (abs p <= 1200 && abs q <= 1200 && is_witness <= 1) "a field of the step has an impossible value";
-    check c (take c 32 = Lazy.force m.hash && left c = 0) "the step is about another motion than the trajectory's";
-    let at_one_place v s = check c (v = s || together m v s) "merged vertices are not at one place" in
-    Array.iteri at_one_place claim.same; check_multiples c p q m;
-    (* A witness names vertices after merging. Paths are searched: no shortest one has as many edges as vertices. *)
-    let ring = if is_witness = 0 then claim.ring else min claim.ring (Array.length claim.same) in
-    let scene = scene_of c claim m p q ring (if is_witness = 0 then Fun.id else Array.map (fun v -> claim.same.(v))) in
-    let said = { said with steps = number + 1; from = (if seen = 0 then t0 else said.from); until = t1 } in
-    if is_witness = 0 then
-      let tree = prove file claim tree (read m p q) scene in
-      let proved said = { said with proved = said.steps; proved_until = t1; all_flat = said.all_flat && m.flat } in
-      check_steps file asked claim tree (if witnessed said then said else proved said)
-    else
-      let words, shown = refute file claim number m.flat scene in
-      let now =
-        if said.refuted <> None then said
-        else
-          try require_refuted asked claim shown; { said with refuted = Some (words ^ rests_on claim shown) }
-          with Rejected why -> if said.in_vain = None then { said with in_vain = Some why } else said in
-      check_steps file asked claim tree now
+    let t0, t1 = both f64 c in let p, q = both i32 c in
+    let is_witness = u8 c in let hash = take c 32 in
+    check c (abs p <= 1200 && abs q <= 1200 && is_witness <= 1 && left c = 0)
+      "a field of the step has an impossible value";
+    let said = { said with known = number + 1; gaps = said.gaps || is_witness = 1 } in
+    let find () = find_motion c asked claim said.steps number t0 t1 hash in
+    if counts asked claim number then begin
+      check c (witnessed said || number = max said.steps (asked.from_step - 1)) "a step before this one is missing";
+      check_step file asked claim tree said c number is_witness p q (find ())
+    end else begin
+      let steps = if number + 2 = asked.from_step then (ignore (find ()); said.known) else said.steps in
+      check_steps file asked claim (pass_over file (is_witness = 1) tree) { said with steps }
+    end
 
-(* For programs. *)
-let print_fields claim said =
+(* A step that is looked at, and those that follow. *)
+and check_step file asked claim tree said c number is_witness p q m =
+  let at_one_place v s = check c (v = s || together m v s) "merged vertices are not at one place" in
+  Array.iteri at_one_place claim.same; check_multiples c p q m;
+  (* A witness names vertices after merging. Paths are searched: no shortest one has as many edges as vertices. *)
+  let ring = if is_witness = 0 then claim.ring else min claim.ring (Array.length claim.same) in
+  let scene = scene_of c claim m p q ring (if is_witness = 0 then Fun.id else Array.map (fun v -> claim.same.(v))) in
+  let from = Some (Option.value said.from ~default:m.t0) in
+  let said = { said with steps = number + 1; from; until = m.t1 } in
+  if is_witness = 0 then
+    let tree = prove file claim tree (read m p q) scene in
+    let proved said = { said with proved = said.steps; proved_until = m.t1; all_flat = said.all_flat && m.flat } in
+    check_steps file asked claim tree (if witnessed said then said else proved said)
+  else
+    let words, shown = refute file claim number m.flat scene in
+    let now =
+      if said.refuted <> None then said
+      else
+        try require_refuted asked claim shown; { said with refuted = Some (words ^ rests_on claim shown) }
+        with Rejected why -> if said.in_vain = None then { said with in_vain = Some why } else said in
+    check_steps file asked claim tree now
+
+(* For programs. Of a part of the steps: also the running hash of the whole proof. *)
+let print_fields file asked claim said =
   let bit b = if b then 1 else 0 in
-  Printf.printf "claim motion=%s dimension=%d steps=%d strict=%d points=%d distance=%s ring=%d merged=%d"
-    motions.(claim.source) claim.motion.dimension said.steps (bit claim.strict) (bit claim.points)
+  Printf.printf "claim motion=%s dimension=%d steps=%s strict=%d points=%d distance=%s ring=%d merged=%d"
+    motions.(claim.source) claim.motion.dimension (steps_text asked said.steps) (bit claim.strict) (bit claim.points)
     (number_text claim.eta) claim.ring (merged claim);
-  Printf.printf " excluded=%s cells=%s empty=%d from=%s to=%s\n" (pairs_text claim.excluded) (hex claim.hash)
-    (bit (not (compares_any claim claim.strict))) (number_text said.from) (number_text said.until)
+  Printf.printf " excluded=%s cells=%s empty=%d from=%s to=%s%s\n" (pairs_text claim.excluded) (hex claim.hash)
+    (bit (not (compares_any claim claim.strict))) (number_text (Option.get said.from)) (number_text said.until)
+    (if asked.is_part then " proof=" ^ hex file.running else "")
 
 let run asked proof paths =
   let file = open_file proof "PROF" in let claim = read_claim file paths in
-  let begin_ = { steps = 0; from = 0.0; until = 0.0; proved = 0; proved_until = 0.0; all_flat = true; refuted = None;
-                 in_vain = None } in
-  let said, first_steps = check_steps file asked claim None begin_ in
+  let begin_ = { known = 0; steps = 0; gaps = false; from = None; until = 0.0; proved = 0; proved_until = 0.0;
+                 all_flat = true; refuted = None; in_vain = None } in
+  let said, first_steps = check_steps file asked claim (Read None) begin_ in
   let what = if claim.excluded = [] then "nothing touches" else "nothing that is compared touches" in
   print_endline (match said.refuted with
-    | Some words -> "refuted: " ^ words | None -> "accepted: " ^ what ^ weaker claim said.steps first_steps);
-  print_fields claim said;
-  Printf.printf "%d steps of %s; from %s to %s; dimension %d; %d cells of %d vertices.\n" said.steps
-    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source) (number_text said.from)
-    (number_text said.until) claim.motion.dimension (Array.length claim.cells) (Array.length claim.same);
+    | Some words -> "refuted: " ^ words | None -> "accepted: " ^ what ^ weaker asked claim said.steps first_steps);
+  print_fields file asked claim said;
+  let steps = steps_text asked said.steps in
+  Printf.printf "%s of %s; from %s to %s; dimension %d; %d cells of %d vertices.\n"
+    (if asked.is_part then "Steps " ^ steps else steps ^ " steps")
+    [| "frames, straight lines between them"; "frames at rest"; "a run" |].(claim.source)
+    (number_text (Option.get said.from)) (number_text said.until) claim.motion.dimension (Array.length claim.cells)
+    (Array.length claim.same);
   Printf.printf "Compared: features of two different cells%s.\n" (if claim.strict then ", and of one" else "");
   if claim.points then print_endline "Vertices without a cell are points.";
   if merged claim > 0 then Printf.printf "Merged: %d vertices, each always where another is.\n" (merged claim);

@@ -31,9 +31,10 @@ let check_multiples c p q m =
   check_from m.times (m.times + (8 * n)) q; check_from m.positions (m.positions + (8 * m.dimension * n)) p
 
 (* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. more
-   tells whether something follows, and does not look at it. *)
+   tells whether something follows, and does not look at it. pass leaves out the first steps, so many, before any was
+   read. *)
 type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; fits : (int * int) list -> bool;
-                    next : unit -> motion option; more : unit -> bool }
+                    next : unit -> motion option; more : unit -> bool; pass : int -> unit }
 
 let hash_of m =
   let h = hash () in
@@ -66,8 +67,10 @@ let read_mesh c =
   let cells = Array.concat (List.map cells [(faces, 3); (edges, 2); (u64 c, 1)]) in
   finish c; { Frames.vertices; cells }
 
-(* The mesh, a function that gives the positions of the next frame, and one that tells whether there is one: of PLY and
-   OBJ files, or of one block file of frames. *)
+let rec repeat n one = if n > 0 && one () <> None then repeat (n - 1) one
+
+(* The mesh, a function that gives the positions of the next frame, one that tells whether there is one, and one that
+   leaves out some: of PLY and OBJ files, or of one block file of frames. *)
 let frames_of_file path =
   let file = open_file path "FRMS" in
   let mesh = read_mesh (expect file "MESH") and count = ref 0 in
@@ -79,7 +82,8 @@ let frames_of_file path =
   let next_frame () = match next file with
     | "", _ -> None
     | kind, c -> check c (kind = "FRAM") "expected a block FRAM here"; Some (positions c) in
-  ({ mesh with cells = Frames.irredundant Fun.id mesh.cells }, next_frame, fun () -> file.read < file.size)
+  ({ mesh with cells = Frames.irredundant Fun.id mesh.cells }, next_frame, (fun () -> file.read < file.size),
+   fun n -> repeat n next_frame)
 
 let frames_of_paths paths =
   let mesh, x = Frames.read_frame (List.hd paths) in
@@ -91,10 +95,11 @@ let frames_of_paths paths =
   let next_frame () = match !first with
     | Some x -> first := None; Some x
     | None -> Option.map read (List.nth_opt !rest 0) in
-  (mesh, next_frame, fun () -> !first <> None || !rest <> [])
+  let rec pass n = if n > 0 && !rest <> [] then (rest := List.tl !rest; pass (n - 1)) in
+  (mesh, next_frame, (fun () -> !first <> None || !rest <> []), pass)
 
 let of_frames paths dimension at_rest =
-  let mesh, next_frame, more_frames = match paths with
+  let mesh, next_frame, more_frames, pass_frames = match paths with
     | [path] when not (Frames.is_frame path) -> frames_of_file path
     | _ -> frames_of_paths paths in
   let too_few () = raise (Rejected "the command line: expected more frames") in
@@ -107,7 +112,13 @@ let of_frames paths dimension at_rest =
     now := x; step := !step +. 1.0; m in
   let next () = if !pending then (pending := false; Some (move !now)) else Option.map move (next_frame ()) in
   let more () = !pending || more_frames () in
-  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next; more }
+  (* The first frame was read. A step between frames begins with one. *)
+  let pass n =
+    if n > 0 then begin
+      pass_frames (n - 1); step := float_of_int n; pending := false;
+      if not at_rest then Option.iter (fun x -> now := x) (next_frame ())
+    end in
+  { dimension; mesh; labels = Array.map (fun _ -> 0) mesh.cells; fits = (fun _ -> true); next; more; pass }
 
 (* Behind MESH: LABL, perhaps EXCL. The labels of the cells, and whether pairs of them are those that are excluded. *)
 let read_labels file (mesh : Frames.mesh) =
@@ -181,4 +192,4 @@ let of_run path =
       List.iter (fun kind -> ignore (expect file kind)) ["VELO"; "STAT"; "CMIT"];
       ignore (Lazy.force m.hash);  (* the last commit is that of this window now *)
       Some m in
-  { dimension; mesh; labels; fits; next; more = (fun () -> file.read < file.size) }
+  { dimension; mesh; labels; fits; next; more = (fun () -> file.read < file.size); pass = (fun n -> repeat n next) }
