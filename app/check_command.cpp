@@ -15,6 +15,7 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
+#include "certify/proofs/check_parts.h"
 #include "certify/proofs/checker.h"
 #include "report/check_report.h"
 #include "report/input_report.h"
@@ -37,7 +38,7 @@ constexpr const char* check_footer =
     "for one field at a time:\n"
     "  --require motion=rest       each frame by itself (noli verify --static)\n"
     "  --require dimension=2       z does not count (--dimension 2)\n"
-    "  --require steps=5           the first five steps, or windows\n"
+    "  --require steps=5           the first five steps, or windows; 40..60 or 40.. a part (--steps)\n"
     "  --require strict            also the features of one cell (--strict)\n"
     "  --require points            also vertices without a cell (--points)\n"
     "  --require distance=0.001    at least so far apart (--min-distance); ring=2 for its ring\n"
@@ -46,6 +47,10 @@ constexpr const char* check_footer =
     "  --require empty             fewer than two cells that could touch\n"
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
     "\n"
+    "A proof in a file is checked by several processes, each for a part of the steps. To check it on several machines, "
+    "give each its --shard K/N. Nothing touches if all of them accept, and name the same proof=HASH (--json: "
+    "claim/part/proof).\n"
+    "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
     "answer (--time-limit, Ctrl-C); 3 anything else.\n"
     "Examples:\n"
@@ -53,13 +58,16 @@ constexpr const char* check_footer =
     "  noli check proof.noli frames/*.ply --claim claim.json\n"
     "  noli check proof.noli rest.ply --require motion=rest\n"
     "  noli check runs/cloth                      its proof.blocks, about its trajectory.blocks\n"
-    "  noli check proof.noli runs/cloth --verified\n";
+    "  noli check proof.noli runs/cloth --verified\n"
+    "  noli check proof.noli 'frames/*.ply' --shard 2/4\n";
 
 struct CheckArguments {
   std::vector<fs::path> files;
   std::vector<std::string> require;
   std::optional<fs::path> claim;
   bool verified = false;
+  std::string shard;
+  int threads = 0;
   FrameOrder order = FrameOrder::checked;
   FrameReading reading;
   BodyWords bodies;
@@ -67,12 +75,29 @@ struct CheckArguments {
   OutputOptions results;
 };
 
+/// The word steps=A..B of --shard K/N.
+std::string steps_of_shard(const std::string& text, const fs::path& proof) {
+  const ShardNumber shard = parse_shard(text);
+  const std::vector<std::uint64_t> parts = parts_of_proof(proof, shard.of);
+  if (parts.empty()) {
+    throw UsageError(proof.string() +
+                     ": cannot be checked in shards; expected a file with a whole proof, and no witness");
+  }
+  if (parts.size() < shard.of) {
+    throw UsageError(
+        fmt::format("--shard {}: the proof has {} steps; expected at most so many shards", text, parts.size()));
+  }
+  return "steps=" + steps_of_part(parts, shard.number - 1);
+}
+
 /// The words of --require; those of the command line count before those of --claim.
-std::vector<std::string> asked_by(const CheckArguments& arguments) {
+std::vector<std::string> asked_by(const CheckArguments& arguments, const fs::path& proof) {
   std::vector<std::string> words = arguments.require;
+  if (!arguments.shard.empty()) words.push_back(steps_of_shard(arguments.shard, proof));
   if (!arguments.claim) return words;
+  const std::vector<std::string> here = words;
   for (const std::string& word : read_claim_file(*arguments.claim)) {
-    if (!asks(arguments.require, field_of(word))) words.push_back(word);
+    if (!asks(here, field_of(word))) words.push_back(word);
   }
   return words;
 }
@@ -121,7 +146,7 @@ ExitCode run(CheckArguments& arguments) {
   inputs.insert(inputs.end(), ordered.frames.begin(), ordered.frames.end());
   if (arguments.claim) inputs.push_back(*arguments.claim);
   const Output output(arguments.results, inputs);
-  std::vector<std::string> asked = asked_by(arguments), notes = ordered.notes;
+  std::vector<std::string> asked = asked_by(arguments, proof), notes = ordered.notes;
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
     if (!arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
@@ -132,6 +157,7 @@ ExitCode run(CheckArguments& arguments) {
                                       .proof = proof,
                                       .trajectory = trajectory_for_checker(trajectory),
                                       .asked = asked,
+                                      .checkers = arguments.threads,
                                       .progress = [&](double share) { bars->show("check", share); }},
                                      arguments.reading);
   bars.reset();
@@ -158,10 +184,20 @@ Command add_check(CLI::App& app) {
       ->allow_extra_args(false);  // what follows one are files
   command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")
       ->type_name("CLAIM.json");
+  CLI::Option* const steps =
+      command
+          ->add_option_function<std::string>(
+              "--steps", [arguments](const std::string& part) { arguments->require.push_back("steps=" + part); },
+              "Check these steps alone, from 1: the same as --require steps=A..B")
+          ->type_name("A..B | A..");
+  command->add_option("--shard", arguments->shard, "Check the K-th of N parts of the steps alone")
+      ->type_name("K/N")
+      ->excludes(steps);
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);
   add_body_options(*command, arguments->bodies, nullptr);
+  add_threads_option(*command, arguments->threads);
   add_time_limit_option(*command, arguments->time_limit);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

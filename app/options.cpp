@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <optional>
+#include <regex>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <noli/errors.h>
 #include "app/help.h"
 #include "app/process.h"
+#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -115,6 +117,16 @@ std::optional<std::chrono::steady_clock::time_point> begin_work(const std::strin
   const auto deadline = std::chrono::steady_clock::now() + limit;
   stop_after(limit);
   return deadline;
+}
+
+ShardNumber parse_shard(const std::string& text) {
+  static const std::regex form("([1-9][0-9]{0,8})/([1-9][0-9]{0,8})");
+  std::smatch match;
+  if (text.size() < 32 && std::regex_match(text, match, form)) {
+    const ShardNumber shard{std::stoull(match[1].str()), std::stoull(match[2].str())};
+    if (shard.number <= shard.of) return shard;
+  }
+  throw UsageError(fmt::format("--shard {}: expected K/N with 1 <= K <= N, such as 3/64", on_one_line(text)));
 }
 
 void add_order_option(CLI::App& command, FrameOrder& order) {

@@ -46,6 +46,14 @@ void add_time_limit_option(CLI::App& command, std::string& text,
 /// empty. Returns when that is. Throws UsageError for a text that is no duration.
 std::optional<std::chrono::steady_clock::time_point> begin_work(const std::string& text);
 
+/// One of several parts of some work.
+struct ShardNumber {
+  std::uint64_t number = 1, of = 1;
+};
+
+/// "3/64". Throws UsageError for anything but K/N with 1 <= K <= N.
+ShardNumber parse_shard(const std::string& text);
+
 /// --order natural | given; neither: the order given has to be that of the numbers in the names.
 void add_order_option(CLI::App& command, FrameOrder& order);
 

@@ -131,7 +131,8 @@ ShardWork shard_work(const VerifyArguments& arguments) {
         "--json, --junit, --claim-out, --github, --proof: are about all steps; expected them with `noli merge`, not "
         "with --shard");
   }
-  return parse_shard(arguments.shard, *arguments.shards);
+  const ShardNumber shard = parse_shard(arguments.shard);
+  return {.folder = *arguments.shards, .number = shard.number, .of = shard.of};
 }
 
 ExitCode run(VerifyArguments& arguments) {

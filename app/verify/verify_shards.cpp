@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -52,18 +51,6 @@ report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome) 
 }
 
 }  // namespace
-
-ShardWork parse_shard(const std::string& text, std::filesystem::path folder) {
-  static const std::regex form("([1-9][0-9]{0,8})/([1-9][0-9]{0,8})");
-  std::smatch match;
-  ShardWork work{std::move(folder)};
-  if (std::regex_match(text, match, form)) {
-    work.number = std::stoull(match[1].str());
-    work.of = std::stoull(match[2].str());
-    if (work.number <= work.of) return work;
-  }
-  throw UsageError(fmt::format("--shard {}: expected K/N with 1 <= K <= N, such as 3/64", on_one_line(text)));
-}
 
 ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesystem::path>& shards, Ranks& ranks,
                          const VerdictOutputs& outputs, const Output* output) {

@@ -16,9 +16,6 @@
 
 namespace noli::app {
 
-/// "3/64" as ShardWork::number and `of`. Throws UsageError for anything else.
-ShardWork parse_shard(const std::string& text, std::filesystem::path folder);
-
 /// Decides all steps together with the other ranks of the job; the first one joins and answers. `shards`: the folder,
 /// or nothing for the usual one, which is removed once there is an answer. `output`: of the first rank. Throws as
 /// verify_shard() and run_verify().

@@ -26,9 +26,12 @@ fs::path path_of(ScratchFolder::Place place) {
 
 }  // namespace
 
-ScratchFolder::ScratchFolder(Place place) {
-  std::string name =
-      (path_of(place) / "noli-scratch-XXXXXX").string();  // mkdtemp needs these letters, and replaces them
+ScratchFolder::ScratchFolder(Place place) : ScratchFolder(path_of(place)) {}
+
+ScratchFolder::ScratchFolder(const fs::path& parent) {
+  const bool there = ::access(parent.c_str(), W_OK | X_OK) == 0;
+  std::string name = ((there ? parent : path_of(Place::disk)) / "noli-scratch-XXXXXX").string();
+  // mkdtemp needs the last letters, and replaces them.
   if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
   path_ = name;
 }

@@ -17,6 +17,9 @@ class ScratchFolder {
 
   /// Throws std::system_error when no folder can be created there.
   explicit ScratchFolder(Place place = Place::disk);
+  /// Within another folder, for what may be larger than temporary files should be; where they are, if nothing can be
+  /// written there. Throws the same.
+  explicit ScratchFolder(const std::filesystem::path& parent);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

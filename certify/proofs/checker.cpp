@@ -11,6 +11,7 @@
 #include <noli/errors.h>
 #include "certify/process/run_program.h"
 #include "certify/process/this_program.h"
+#include "certify/proofs/check_parts.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
@@ -119,8 +120,13 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
   return CheckerVerdict{end.code, std::move(end.out)};
 }
 
+std::optional<CheckerVerdict> checked(const CheckRequest& request) {
+  if (auto accepted = accepted_in_parts(request)) return accepted;
+  return CheckerProcess(request).finish();
+}
+
 CheckerVerdict check_proof(const CheckRequest& request) {
-  auto verdict = CheckerProcess(request).finish();
+  auto verdict = checked(request);
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);
 }

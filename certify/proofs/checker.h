@@ -48,6 +48,10 @@ class CheckerProcess {
   Child child_;
 };
 
+/// The verdict on a proof in a file, of one checker or of several. Nothing after a stop. Precondition: request.proof.
+/// Throws as CheckerProcess.
+std::optional<CheckerVerdict> checked(const CheckRequest& request);
+
 /// Writes a proof to a running checker, which must outlive it.
 class CheckerSink : public Sink {
  public:

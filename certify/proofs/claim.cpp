@@ -90,10 +90,20 @@ bool read_pairs(std::string_view text, LabelPairs& pairs) {
   return true;
 }
 
+/// "11", or "40..60" of a part.
+bool read_steps(std::string_view text, Claim& claim) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos) return read_number(text, claim.steps);
+  ClaimPart& part = claim.part.emplace();
+  if (!read_number(text.substr(0, dots), part.first) || !read_number(text.substr(dots + 2), part.last)) return false;
+  claim.steps = part.last - part.first + 1;
+  return part.first >= 1 && part.first <= part.last;
+}
+
 bool read_field(std::string_view key, std::string_view value, Claim& claim) {
   if (key == "motion") return claim.motion = value, true;
   if (key == "dimension") return read_number(value, claim.dimension);
-  if (key == "steps") return read_number(value, claim.steps);
+  if (key == "steps") return read_steps(value, claim);
   if (key == "strict") return read_flag(value, claim.strict);
   if (key == "points") return read_flag(value, claim.points);
   if (key == "distance") return read_number(value, claim.distance);
@@ -222,7 +232,10 @@ std::optional<Claim> claim_of_words(const std::string& words) {
     if (!read_field(key, field.substr(equal + 1), claim)) return std::nullopt;
     line.remove_prefix(std::min(field.size() + 1, line.size()));
   }
-  return line.empty() ? std::optional(std::move(claim)) : std::nullopt;
+  constexpr std::string_view proof = "proof=";
+  if (claim.part && line.starts_with(proof)) claim.part->proof = line.substr(proof.size());
+  const bool complete = claim.part ? claim.part->proof.size() == 64 : line.empty();
+  return complete ? std::optional(std::move(claim)) : std::nullopt;
 }
 
 bool can_be_asked(const Claim& claim) {
@@ -232,7 +245,11 @@ bool can_be_asked(const Claim& claim) {
 std::vector<std::string> fields_of(const Claim& claim) {
   std::vector<std::string> fields;
   for (const auto& [key, value] : values(claim)) {
-    if (key == "from" || key == "to") continue;
+    if (key == "from" || key == "to" || key == "part") continue;
+    if (key == "steps" && claim.part) {
+      fields.push_back(fmt::format("steps={}..{}", claim.part->first, claim.part->last));
+      continue;
+    }
     if (key == "steps" && claim.steps == 0) continue;  // not known yet: all that the motion has
     if (key == "ring" && claim.distance == 0) continue;
     // For a run the pairs are those of its scene by default; they may be too many for a command line.
@@ -292,11 +309,15 @@ std::string distance_phrase(const Claim& claim) {
 }
 
 Json claim_json(const Claim& claim) {
-  return {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
-          {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
-          {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", claim.excluded},
-          {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
-          {"to", claim.to}};
+  Json json = {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
+               {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
+               {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", claim.excluded},
+               {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
+               {"to", claim.to}};
+  if (claim.part) {
+    json["part"] = {{"first", claim.part->first}, {"last", claim.part->last}, {"proof", claim.part->proof}};
+  }
+  return json;
 }
 
 Json checker_json(const CheckerVersion& checker) {
@@ -307,7 +328,7 @@ Json claim_file(const Claim& claim) {
   Json json = {{"schema", schema}, {"version", schema_version}};
   const Json fields = claim_json(claim);  // items() only refers to it
   for (const auto& [key, value] : fields.items()) {
-    if (key != "from" && key != "to") json[key] = value;
+    if (key != "from" && key != "to" && key != "part") json[key] = value;
   }
   return json;
 }

@@ -25,6 +25,13 @@ class NoSink : public Sink {
   void truncate(std::uint64_t /*size*/) override {}
 };
 
+/// A file that nobody needs after this process: it need not survive a loss of power.
+class ScratchFile : public FileSink {
+ public:
+  explicit ScratchFile(const fs::path& path) : FileSink(path, Open::create) {}
+  void sync() override {}
+};
+
 /// To a file, and on the way to a checker.
 class BothSinks : public Sink {
  public:
@@ -51,7 +58,10 @@ ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
   }
   can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
   file_ = request.proof;
+  // Steps that are decided already take less time than their checker, so several checkers share them out.
+  const bool joined = request.decided && !pipe_;
   const bool later = request.min_distance > 0 || request.follow || request.live;
+  if (!file_ && can_check_ && joined) file_ = folder_.emplace(request.decided_in).path() / "proof.noli";
   if (!file_ && can_check_ && later) file_ = folder_.emplace().path() / "proof.noli";
   if (pipe_ && file_) {
     request.open_proof = [this](const Claim& claim) {
@@ -117,16 +127,18 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
     if (pipe_) pipe_->close();
     return checker_->finish();
   }
-  const CheckRequest request{.proof = file_, .trajectory = trajectory(), .asked = fields_of(claim)};
+  const CheckRequest request{
+      .proof = file_, .trajectory = trajectory(), .asked = fields_of(claim), .checkers = request_.threads};
   if (frames_are_streamed()) return check_frames(request, *open_all_frames(request_.frames, request_.reading));
-  return CheckerProcess(request).finish();
+  return checked(request);
 }
 
 /// The checker has looked at the claim that was asked, and at no other.
 void ProofRoute::require_claim(const Claim& asked, const std::string& words, bool refuted) {
   const char* const word = refuted ? "refuted" : "accepted";
   const auto checked = claim_of_words(words);
-  if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
+  if (!checked || checked->part)
+    throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
   if (const auto other = difference(asked, *checked, refuted)) {
     throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
   }
@@ -134,6 +146,7 @@ void ProofRoute::require_claim(const Claim& asked, const std::string& words, boo
 
 std::unique_ptr<Sink> ProofRoute::to_file() const {
   fs::remove(*file_);
+  if (folder_) return std::make_unique<ScratchFile>(*file_);
   return std::make_unique<FileSink>(*file_, FileSink::Open::create);
 }
 

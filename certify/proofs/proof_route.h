@@ -8,7 +8,8 @@
 //   route.check(outcome);                             // "no contact" becomes "proved"
 //
 // With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
-// be taken back. So does that of a run that is being written: how many windows it has is known at the end.
+// be taken back. So does that of a run that is being written: how many windows it has is known at the end. And that of
+// steps which shards decided, so that several checkers share it out.
 #pragma once
 
 #include <filesystem>

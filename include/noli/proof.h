@@ -35,6 +35,13 @@ namespace noli {
 
 class Sink;
 
+/// Steps that a claim is about, where it is about a part of a proof alone.
+struct ClaimPart {
+  std::uint64_t first = 0, last = 0;  ///< from 1
+  std::string proof;                  ///< the last running hash of the proof's file
+  friend bool operator==(const ClaimPart&, const ClaimPart&) = default;
+};
+
 /// A claim, by the fields of proofs/FORMAT.md, section 6.
 struct Claim {
   std::string motion = "linear";  ///< or "rest", "run"
@@ -48,6 +55,7 @@ struct Claim {
   std::string cells;                                ///< their hash
   bool empty = false;                               ///< fewer than two cells can be compared
   double from = 0, to = 0;                          ///< T0 of the first step, T1 of the last
+  std::optional<ClaimPart> part;                    ///< nothing: all steps, or the first ones
 
   friend bool operator==(const Claim&, const Claim&) = default;
 };
@@ -104,6 +112,9 @@ struct CheckRequest {
   std::vector<std::string> asked = {};      ///< the fields after --require (proofs/FORMAT.md, section 6)
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the checker is ended
   std::filesystem::path programs = {};      ///< the checkers' folder; empty: that of this program
+  /// At most so many processes at once, each for a part of the steps, if `proof` and `trajectory` are files; 0: as many
+  /// as the machine has threads. What they say is the same.
+  int checkers = 1;
   /// Called now and then with the share of `proof` that the checker has read, in [0, 1], if the system tells it.
   std::function<void(double share)> progress = {};
 };

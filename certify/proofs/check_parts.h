@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Checkers side by side: each looks at a part of the steps of one proof (proofs/FORMAT.md, section 6, "Parts").
+//
+// Parts are cut so that each has about as many bytes of tokens, as these take most of a checker's time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certify/proofs/checker.h"
+
+namespace noli {
+
+/// The first steps, counted from 1, of so many parts of a proof, or of as many as it has steps. Nothing if it cannot be
+/// parted: it is in no regular file, it is not a file of whole blocks, or it has a witness, which refutes all of it.
+std::vector<std::uint64_t> parts_of_proof(const std::filesystem::path& proof, std::size_t parts);
+
+/// The words --require steps=... for a part: "17..32", or "33.." for the last one.
+std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t part);
+
+/// What one checker would say of all steps, from what checkers said of the parts, in order; nothing if not all of them
+/// accept parts of one proof that follow each other from step 1.
+std::optional<std::string> joined_words(const std::vector<std::string>& words);
+
+/// The verdict of request.checkers at once, if all accept; what it says is what one checker says. Nothing if the proof or
+/// its trajectory cannot be read by several, is small, or is not accepted: one checker should then look at all of it.
+/// Precondition: request.proof.
+std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request);
+
+}  // namespace noli

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests checks of parts of a proof: `noli check --steps`, `--shard`, and several checkers for one answer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "certify/proofs/check_parts.h"
+#include "tests/app/process.h"
+#include "tests/app/scene.h"
+#include "tests/app/shards/shards_fixture.h"
+
+namespace noli::app_tests {
+namespace {
+
+/// Waves of a sheet, whose proof has some megabytes.
+class CheckedParts : public Shards {
+ protected:
+  static constexpr int side = 48, frames = 9;
+
+  void SetUp() override {
+    for (int k = 0; k < frames; ++k) names.push_back(write_frame(k, 0));
+    const Process proved = run_noli(joined({"verify", "--no-check", "--proof", proof()}, names));
+    ASSERT_EQ(proved.exit_code, 0) << proved.err;
+    ASSERT_GT(fs::file_size(proof()), 3U << 20U);
+  }
+  std::string write_frame(int k, double lifted) const {
+    std::vector<Position> points;
+    std::vector<std::array<VertexId, 3>> faces;
+    for (int i = 0; i < side * side; ++i) {
+      const double x = i % side, y = static_cast<double>(i / side);
+      points.push_back({x, y, 0.25 * std::sin(0.5 * x + 0.25 * y + k) + lifted});
+    }
+    for (VertexId i = 0; i + side < side * side; ++i) {
+      if (i % side == side - 1) continue;
+      faces.push_back({i, i + 1, i + side});
+      faces.push_back({i + 1, i + side + 1, i + side});
+    }
+    return folder.write("wave_" + std::to_string(k) + ".ply", ply_text(points, faces));
+  }
+  std::string proof() const { return folder.path("waves.noli"); }
+  Process check(const Words& more) const { return run_noli(joined(joined({"check", proof()}, names), more)); }
+  CheckRequest request(int checkers) const {
+    return {.proof = proof(),
+            .trajectory = {names.begin(), names.end()},
+            .programs = fs::path(NOLI_COMMAND).parent_path(),
+            .checkers = checkers};
+  }
+
+  Words names;
+};
+
+TEST_F(CheckedParts, GiveTheAnswerOfOneChecker) {
+  const CheckerVerdict one = check_proof(request(1));
+  EXPECT_EQ(one.code, 0);
+  EXPECT_FALSE(accepted_in_parts(request(1)).has_value());
+  for (const Checker checker : {Checker::plain, Checker::verified}) {
+    if (checker == Checker::verified && !verified_checker_is_there()) continue;
+    CheckRequest several = request(3);
+    several.checker = checker;
+    const auto parted = accepted_in_parts(several);
+    ASSERT_TRUE(parted.has_value());
+    EXPECT_EQ(parted->words, one.words);
+    EXPECT_EQ(check_proof(several).words, one.words);
+  }
+}
+
+TEST_F(CheckedParts, AskForWhatOneCheckerIsAskedFor) {
+  for (const char* const word : {"steps=8", "steps=3", "motion=rest", "distance=0"}) {
+    CheckRequest one = request(1), several = request(3);
+    one.asked = several.asked = {word};
+    EXPECT_TRUE(accepted_in_parts(several).has_value()) << word;
+    EXPECT_EQ(check_proof(one).words, check_proof(several).words) << word;
+  }
+  for (const char* const word : {"steps=9", "steps=2..3", "steps=x", "strict", "distance=1", "nothing"}) {
+    CheckRequest one = request(1), several = request(3);
+    one.asked = several.asked = {word};
+    EXPECT_FALSE(accepted_in_parts(several).has_value()) << word;
+    EXPECT_EQ(check_proof(one).words, check_proof(several).words) << word;
+  }
+}
+
+TEST_F(CheckedParts, OfOtherFramesAreRejected) {
+  for (const int changed : {0, 3, 4, frames - 1}) {
+    write_frame(changed, 1);
+    EXPECT_FALSE(accepted_in_parts(request(3)).has_value()) << changed;
+    EXPECT_EQ(check({}).exit_code, 3) << changed;
+    write_frame(changed, 0);
+  }
+  EXPECT_EQ(check({}).exit_code, 0);
+  names.push_back(write_frame(frames, 0));
+  EXPECT_FALSE(accepted_in_parts(request(3)).has_value());
+  EXPECT_EQ(check({}).exit_code, 3);
+}
+
+TEST_F(CheckedParts, OfADamagedProofAreRejected) {
+  const std::string bytes = bytes_of(proof());
+  for (const std::size_t share : {1U, 5U, 9U}) {
+    std::string other = bytes;
+    other[bytes.size() / 10 * share] ^= 1;
+    folder.write("waves.noli", other);
+    EXPECT_FALSE(accepted_in_parts(request(3)).has_value()) << share;
+    EXPECT_EQ(check({}).exit_code, 3) << share;
+  }
+}
+
+TEST_F(CheckedParts, AreShardsThatNameOneProof) {
+  std::string name;
+  std::uint64_t next = 1;
+  for (const char* const which : {"1/3", "2/3", "3/3"}) {
+    const Process checked = check({"--shard", which, "--json", "-"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    const Json part = Json::parse(checked.out)["claim"]["part"];
+    EXPECT_EQ(part["first"], next);
+    next = part["last"].get<std::uint64_t>() + 1;
+    if (name.empty()) name = part["proof"];
+    EXPECT_EQ(part["proof"], name);
+  }
+  EXPECT_EQ(next, static_cast<std::uint64_t>(frames));
+}
+
+TEST_F(CheckedParts, OfSomeStepsAreNamedInTheVerdict) {
+  const Process some = check({"--steps", "3..4"});
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_NE(some.verdict_line().find("nothing touches; steps 3..4"), std::string::npos) << some.out;
+  EXPECT_EQ(check({"--steps", "7.."}).exit_code, 0);
+  EXPECT_EQ(check({"--steps", "7..9"}).exit_code, 3);
+  EXPECT_EQ(check({"--steps", "3..x"}).exit_code, 3);
+  EXPECT_EQ(check({"--shard", "3"}).exit_code, 3);
+  const Process many = check({"--shard", "2/9"});
+  EXPECT_EQ(many.exit_code, 3);
+  EXPECT_NE(many.err.find("the proof has 8 steps; expected at most so many shards"), std::string::npos) << many.err;
+  EXPECT_EQ(check({"--shard", "1/2", "--steps", "1..2"}).exit_code, 3);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
