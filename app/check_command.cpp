@@ -12,6 +12,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/progress.h"
+#include "app/ranks/ranks.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
@@ -48,8 +49,8 @@ constexpr const char* check_footer =
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
     "\n"
     "A proof in a file is checked by several processes, each for a part of the steps. To check it on several machines, "
-    "give each its --shard K/N. Nothing touches if all of them accept, and name the same proof=HASH (--json: "
-    "claim/part/proof).\n"
+    "give each its --shard K/N: nothing touches if all of them accept, and name the same proof=HASH (--json: "
+    "claim/part/proof). `mpirun noli check` shares the steps out to its ranks.\n"
     "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
     "answer (--time-limit, Ctrl-C); 3 anything else.\n"
@@ -102,14 +103,33 @@ std::vector<std::string> asked_by(const CheckArguments& arguments, const fs::pat
   return words;
 }
 
-CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
-  // What holds no frames by its name or first bytes is the checker's to refuse.
-  const auto& files = request.trajectory;
+/// Whether checkers read the motion themselves. What holds no frames by its name or first bytes is theirs to refuse.
+bool is_theirs_to_read(const std::vector<fs::path>& files, const FrameReading& reading) {
   const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
-  if (reading.bodies.empty() && (unknown || checkers_read(files))) return check_proof(request);
+  return reading.bodies.empty() && (unknown || checkers_read(files));
+}
+
+CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
+  if (is_theirs_to_read(request.trajectory, reading)) return check_proof(request);
   auto verdict = check_frames(request, *open_all_frames(request.trajectory, reading));
   if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
   return *std::move(verdict);
+}
+
+/// Of the ranks of a job, if all accept; nothing for those after the first. Each rank takes the next few of the parts.
+std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ranks& ranks) {
+  const int threads = request.checkers > 0 ? request.checkers : ranks.threads();
+  const std::vector<std::uint64_t> firsts = parts_of_check(request, threads * ranks.size());
+  const auto begin_of = [&](int rank) {
+    return firsts.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks.size());
+  };
+  const auto own = words_of_parts(request, firsts, begin_of(ranks.rank()), begin_of(ranks.rank() + 1), threads);
+  std::vector<std::string> words;
+  for (const std::string& text : ranks.gather(Json(own).dump())) {
+    for (std::string& part : Json::parse(text).get<std::vector<std::string>>()) words.push_back(std::move(part));
+  }
+  auto joined = joined_words(words);
+  return joined ? std::optional(CheckerVerdict{0, *std::move(joined)}) : std::nullopt;
 }
 
 /// Sets the bodies; all their files.
@@ -118,6 +138,37 @@ OrderedFrames ordered_bodies(CheckArguments& arguments) {
   arguments.reading.bodies = bodies_of(arguments.bodies, arguments.order, ordered.notes);
   ordered.frames = files_of(arguments.reading.bodies);
   return ordered;
+}
+
+/// The proof's file. Throws InputError and UsageError when it is none.
+fs::path proof_of(const CheckArguments& arguments, bool folder) {
+  fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
+  if (!fs::exists(proof)) {
+    const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
+    throw InputError(proof.string(), "", std::string("does not exist; expected a proof") + why);
+  }
+  if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
+  return proof;
+}
+
+/// All files that no output may replace.
+std::vector<fs::path> inputs_of(const CheckArguments& arguments, const std::vector<fs::path>& frames) {
+  std::vector<fs::path> inputs = files_named(arguments.files);
+  inputs.insert(inputs.end(), arguments.files.begin(), arguments.files.end());
+  inputs.insert(inputs.end(), frames.begin(), frames.end());
+  if (arguments.claim) inputs.push_back(*arguments.claim);
+  return inputs;
+}
+
+/// Of the ranks of a job together, if all accept; else of one checker. Nothing for the ranks after the first.
+std::optional<CheckerVerdict> verdict_of(CheckRequest& request, const FrameReading& reading, Ranks* ranks) {
+  if (ranks == nullptr) return ask(request, reading);
+  if (is_theirs_to_read(request.trajectory, reading)) {
+    if (auto accepted = accepted_in_ranks(request, *ranks)) return accepted;
+  }
+  if (!ranks->is_first()) return std::nullopt;
+  request.checkers = 1;
+  return ask(request, reading);
 }
 
 ExitCode run(CheckArguments& arguments) {
@@ -129,43 +180,39 @@ ExitCode run(CheckArguments& arguments) {
   if (!folder && !joined && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
-  const fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
+  const auto ranks = Ranks::of_this_job();
   const OrderedFrames ordered =
       joined
           ? ordered_bodies(arguments)
           : order_frames(folder ? arguments.files : named_frames({arguments.files.begin() + 1, arguments.files.end()}),
                          arguments.order);
   const std::vector<fs::path>& trajectory = ordered.frames;
-  if (!fs::exists(proof)) {
-    const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
-    throw InputError(proof.string(), "", std::string("does not exist; expected a proof") + why);
-  }
-  if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
-  std::vector<fs::path> inputs = files_named(arguments.files);
-  inputs.insert(inputs.end(), arguments.files.begin(), arguments.files.end());
-  inputs.insert(inputs.end(), ordered.frames.begin(), ordered.frames.end());
-  if (arguments.claim) inputs.push_back(*arguments.claim);
-  const Output output(arguments.results, inputs);
+  const fs::path proof = proof_of(arguments, folder);
+  std::optional<const Output> output;  // of the first rank alone
+  if (!ranks || ranks->is_first()) output.emplace(arguments.results, inputs_of(arguments, ordered.frames));
   std::vector<std::string> asked = asked_by(arguments, proof), notes = ordered.notes;
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
-    if (!arguments.results.quiet) note_if_being_written(trajectory[0]);
+    if (output && !arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
   }
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
-  std::optional<ProgressBars> bars(std::in_place);
-  const CheckerVerdict verdict = ask({.checker = which,
-                                      .proof = proof,
-                                      .trajectory = trajectory_for_checker(trajectory),
-                                      .asked = asked,
-                                      .checkers = arguments.threads,
-                                      .progress = [&](double share) { bars->show("check", share); }},
-                                     arguments.reading);
+  CheckRequest request{.checker = which,
+                       .proof = proof,
+                       .trajectory = trajectory_for_checker(trajectory),
+                       .asked = asked,
+                       .checkers = arguments.threads};
+  std::optional<ProgressBars> bars;
+  if (output) bars.emplace();
+  if (output) request.progress = [&bars](double share) { bars->show("check", share); };
+  const auto verdict = verdict_of(request, arguments.reading, ranks.get());
   bars.reset();
+  if (!verdict || !output) return ranks->end(ExitCode::holds);  // the first rank's becomes that of all
   constexpr std::string_view at_fault = "rejected: the command line, ";
-  if (verdict.words.starts_with(at_fault)) throw UsageError(first_line(verdict.words).substr(at_fault.size()));
-  const report::Checked checked{version_of(which), proof, asked, verdict, notes};
-  output.write("check", report::check_answer(checked), report::check_json(checked));
-  return static_cast<ExitCode>(verdict.code);
+  if (verdict->words.starts_with(at_fault)) throw UsageError(first_line(verdict->words).substr(at_fault.size()));
+  const report::Checked checked{version_of(which), proof, asked, *verdict, notes};
+  output->write("check", report::check_answer(checked), report::check_json(checked));
+  const auto code = static_cast<ExitCode>(verdict->code);
+  return ranks ? ranks->end(code) : code;
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ class Program {
     for (const Command& command : commands_) {
       if (!command.parser->parsed()) continue;
       const std::string name = command.parser->get_name();
-      if (Ranks::started_by_mpirun() && name != "verify") {
+      if (Ranks::started_by_mpirun() && name != "verify" && name != "check") {
         throw UsageError(
             fmt::format("mpirun started several ranks, and `noli {}` is for one process; NOLI_MPI=0 in its environment "
                         "lets it be one",

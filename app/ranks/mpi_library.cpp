@@ -11,6 +11,8 @@
 
 #include <chrono>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -95,6 +97,29 @@ int noli_mpi_barrier(std::int32_t* code) {
   wait_for(request);
   MPI_Ibcast(code, 1, MPI_INT32_T, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
+  return 0;
+}
+
+int noli_mpi_gather(const char* bytes, std::uint64_t size, const std::uint64_t** sizes, const char** all) {
+  static std::vector<std::uint64_t> of_ranks;
+  static std::vector<char> text;
+  MPI_Request request = MPI_REQUEST_NULL;
+  of_ranks.assign(job().rank == 0 ? static_cast<std::size_t>(job().size) : 0, 0);
+  MPI_Igather(&size, 1, MPI_UINT64_T, of_ranks.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
+  wait_for(request);
+  std::uint64_t total = std::accumulate(of_ranks.begin(), of_ranks.end(), std::uint64_t{0});
+  MPI_Ibcast(&total, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
+  wait_for(request);
+  if (total > std::numeric_limits<std::int32_t>::max()) return 4;
+  const std::vector<int> counts(of_ranks.begin(), of_ranks.end());
+  std::vector<int> offsets(counts.size(), 0);
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  text.resize(job().rank == 0 ? total : 0);
+  MPI_Igatherv(bytes, static_cast<int>(size), MPI_CHAR, text.data(), counts.data(), offsets.data(), MPI_CHAR, 0,
+               MPI_COMM_WORLD, &request);
+  wait_for(request);
+  *sizes = job().rank == 0 ? of_ranks.data() : nullptr;
+  *all = job().rank == 0 ? text.data() : nullptr;
   return 0;
 }
 

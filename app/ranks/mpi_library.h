@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#define NOLI_MPI_VERSION 1
+#define NOLI_MPI_VERSION 2
 #define NOLI_MPI_PROGRAM_BYTES 128
 
 extern "C" {
@@ -27,6 +27,9 @@ int noli_mpi_next(uint64_t* task);
 int noli_mpi_close_counter(void);
 /* Waits for all ranks, which call it in turn; `code` of rank 0 becomes that of all. */
 int noli_mpi_barrier(int32_t* code);
+/* Sends bytes of all ranks to rank 0, 2^31 - 1 in all at most; 4 if there are more. Rank 0 gets how many each rank has,
+ * and the bytes of one rank after another's: both stay until the next call. The others get nulls. */
+int noli_mpi_gather(const char* bytes, uint64_t size, const uint64_t** sizes, const char** all);
 /* Lets MPI answer other ranks. From any thread, between other calls. */
 void noli_mpi_serve(void);
 /* Ends. */

@@ -67,6 +67,7 @@ struct Ranks::Library {
     find(next, "noli_mpi_next");
     find(close_counter, "noli_mpi_close_counter");
     find(barrier, "noli_mpi_barrier");
+    find(gather, "noli_mpi_gather");
     find(serve, "noli_mpi_serve");
     find(end, "noli_mpi_end");
   }
@@ -83,6 +84,7 @@ struct Ranks::Library {
   decltype(noli_mpi_next)* next = nullptr;
   decltype(noli_mpi_close_counter)* close_counter = nullptr;
   decltype(noli_mpi_barrier)* barrier = nullptr;
+  decltype(noli_mpi_gather)* gather = nullptr;
   decltype(noli_mpi_serve)* serve = nullptr;
   decltype(noli_mpi_end)* end = nullptr;
 };
@@ -130,6 +132,15 @@ void Ranks::serve() {
 }
 
 void Ranks::close_counter() { require(library_->close_counter()); }
+
+std::vector<std::string> Ranks::gather(const std::string& text) {
+  const std::uint64_t* sizes = nullptr;
+  const char* all = nullptr;
+  require(library_->gather(text.data(), text.size(), &sizes, &all));
+  std::vector<std::string> texts;
+  for (int i = 0; is_first() && i < size_; all += sizes[i++]) texts.emplace_back(all, sizes[i]);
+  return texts;
+}
 
 void Ranks::barrier() {
   std::int32_t code = 0;

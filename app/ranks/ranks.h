@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/exit_code.h"
 
@@ -44,6 +46,9 @@ class Ranks {
   void serve();
   /// No rank gets a task from now on.
   void close_counter();
+  /// The texts of all ranks, in their order, for the first one; nothing for the others. Throws std::runtime_error when
+  /// they are too long.
+  std::vector<std::string> gather(const std::string& text);
   /// Waits until all ranks are here.
   void barrier();
   /// The same, then ends MPI. Returns the exit code of the first rank, in all of them.

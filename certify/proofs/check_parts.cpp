@@ -170,32 +170,39 @@ std::optional<std::string> joined_words(const std::vector<std::string>& words) {
          all.about;
 }
 
-std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request) {
+std::vector<std::uint64_t> parts_of_check(const CheckRequest& request, int checkers) {
   const auto asked = asked_steps(request.asked);
-  const int checkers = request.checkers > 0 ? request.checkers : hardware_threads();
-  if (checkers == 1 || asked == 0 || !std::ranges::all_of(request.trajectory, is_file)) return std::nullopt;
+  if (checkers <= 1 || asked == 0 || !std::ranges::all_of(request.trajectory, is_file)) return {};
   const std::vector<std::uint64_t> bytes = bytes_of_steps(*request.proof);
-  if (asked && *asked > bytes.size()) return std::nullopt;
+  if (asked && *asked > bytes.size()) return {};
   const std::uint64_t worthwhile = std::reduce(bytes.begin(), bytes.end()) / least_bytes;
   const std::uint64_t parts = std::min({std::uint64_t{bytes.size()}, worthwhile, static_cast<std::uint64_t>(checkers)});
-  if (parts < 2) return std::nullopt;
-  const std::vector<std::uint64_t> firsts = cut(bytes, parts);
-  std::vector<std::string> words(firsts.size());
-  PartsProgress progress(request.progress, firsts.size());
-  parallel_for(firsts.size(), checkers, [&](std::size_t part) {
+  return parts < 2 ? std::vector<std::uint64_t>{} : cut(bytes, parts);
+}
+
+std::vector<std::string> words_of_parts(const CheckRequest& request, const std::vector<std::uint64_t>& firsts,
+                                        std::size_t begin, std::size_t end, int threads) {
+  std::vector<std::string> words(end - begin);
+  PartsProgress progress(request.progress, words.size());
+  parallel_for(words.size(), threads, [&](std::size_t i) {
     CheckRequest one = request;
-    one.checkers = 1;
     std::erase_if(one.asked, [](const std::string& word) { return field_of(word) == "steps"; });
-    one.asked.push_back("steps=" + steps_of_part(firsts, part));
-    one.progress = progress.of(part);
+    one.asked.push_back("steps=" + steps_of_part(firsts, begin + i));
+    one.progress = progress.of(i);
     try {
       const auto verdict = CheckerProcess(one).finish();
-      if (verdict && verdict->code == 0) words[part] = verdict->words;
+      if (verdict && verdict->code == 0) words[i] = verdict->words;
     } catch (const std::runtime_error&) {
       // One checker alone may have enough of what these lacked; if not, it says so.
     }
   });
-  auto joined = joined_words(words);
+  return words;
+}
+
+std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request) {
+  const int checkers = request.checkers > 0 ? request.checkers : hardware_threads();
+  const std::vector<std::uint64_t> firsts = parts_of_check(request, checkers);
+  auto joined = joined_words(words_of_parts(request, firsts, 0, firsts.size(), checkers));
   return joined ? std::optional(CheckerVerdict{0, *std::move(joined)}) : std::nullopt;
 }
 

@@ -23,12 +23,22 @@ std::vector<std::uint64_t> parts_of_proof(const std::filesystem::path& proof, st
 /// The words --require steps=... for a part: "17..32", or "33.." for the last one.
 std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t part);
 
+/// The first steps, from 1, of the parts that so many checkers take. Nothing if one should look at all steps: the proof
+/// or its trajectory cannot be read by several, the proof has a witness or is small, or a part of it is asked for.
+/// Precondition: request.proof.
+std::vector<std::uint64_t> parts_of_check(const CheckRequest& request, int checkers);
+
+/// What checkers, `threads` at once, say of the parts from `begin` on and before `end`; nothing of one that is not
+/// accepted, or whose checker failed.
+std::vector<std::string> words_of_parts(const CheckRequest& request, const std::vector<std::uint64_t>& firsts,
+                                        std::size_t begin, std::size_t end, int threads);
+
 /// What one checker would say of all steps, from what checkers said of the parts, in order; nothing if not all of them
 /// accept parts of one proof that follow each other from step 1.
 std::optional<std::string> joined_words(const std::vector<std::string>& words);
 
-/// The verdict of request.checkers at once, if all accept; what it says is what one checker says. Nothing if the proof or
-/// its trajectory cannot be read by several, is small, or is not accepted: one checker should then look at all of it.
+/// The verdict of request.checkers at once, if all accept; what it says is what one checker says. If there is none, one
+/// checker should look at all steps.
 /// Precondition: request.proof.
 std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request);
 

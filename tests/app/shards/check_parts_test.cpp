@@ -3,13 +3,11 @@
 // Tests checks of parts of a proof: `noli check --steps`, `--shard`, and several checkers for one answer.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "certify/proofs/check_parts.h"
 #include "tests/app/process.h"
-#include "tests/app/scene.h"
 #include "tests/app/shards/shards_fixture.h"
 
 namespace noli::app_tests {
@@ -18,27 +16,13 @@ namespace {
 /// Waves of a sheet, whose proof has some megabytes.
 class CheckedParts : public Shards {
  protected:
-  static constexpr int side = 48, frames = 9;
+  static constexpr int frames = 9;
 
   void SetUp() override {
-    for (int k = 0; k < frames; ++k) names.push_back(write_frame(k, 0));
+    names = write_waves(frames);
     const Process proved = run_noli(joined({"verify", "--no-check", "--proof", proof()}, names));
     ASSERT_EQ(proved.exit_code, 0) << proved.err;
     ASSERT_GT(fs::file_size(proof()), 3U << 20U);
-  }
-  std::string write_frame(int k, double lifted) const {
-    std::vector<Position> points;
-    std::vector<std::array<VertexId, 3>> faces;
-    for (int i = 0; i < side * side; ++i) {
-      const double x = i % side, y = static_cast<double>(i / side);
-      points.push_back({x, y, 0.25 * std::sin(0.5 * x + 0.25 * y + k) + lifted});
-    }
-    for (VertexId i = 0; i + side < side * side; ++i) {
-      if (i % side == side - 1) continue;
-      faces.push_back({i, i + 1, i + side});
-      faces.push_back({i + 1, i + side + 1, i + side});
-    }
-    return folder.write("wave_" + std::to_string(k) + ".ply", ply_text(points, faces));
   }
   std::string proof() const { return folder.path("waves.noli"); }
   Process check(const Words& more) const { return run_noli(joined(joined({"check", proof()}, names), more)); }
@@ -84,13 +68,13 @@ TEST_F(CheckedParts, AskForWhatOneCheckerIsAskedFor) {
 
 TEST_F(CheckedParts, OfOtherFramesAreRejected) {
   for (const int changed : {0, 3, 4, frames - 1}) {
-    write_frame(changed, 1);
+    write_wave(changed, 1);
     EXPECT_FALSE(accepted_in_parts(request(3)).has_value()) << changed;
     EXPECT_EQ(check({}).exit_code, 3) << changed;
-    write_frame(changed, 0);
+    write_wave(changed, 0);
   }
   EXPECT_EQ(check({}).exit_code, 0);
-  names.push_back(write_frame(frames, 0));
+  names.push_back(write_wave(frames, 0));
   EXPECT_FALSE(accepted_in_parts(request(3)).has_value());
   EXPECT_EQ(check({}).exit_code, 3);
 }

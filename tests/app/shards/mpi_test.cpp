@@ -54,6 +54,27 @@ TEST_F(InRanks, TheUsualFolderIsRemoved) {
   }
 }
 
+TEST_F(InRanks, AProofIsCheckedAsByOneProcess) {
+  const Words waves = write_waves(9);
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--proof", folder.path("one.noli")}, waves)).exit_code, 0);
+  const auto asked = [&](const std::string& json) {
+    return joined(joined({"check", folder.path("one.noli")}, waves), {"--force", "--json", folder.path(json)});
+  };
+  const auto expect_same = [&](const Words& more, int exit_code) {
+    const Process one = run_noli(joined(asked("one.json"), joined({"--threads", "1"}, more)));
+    const Process all = job(3, joined(asked("all.json"), more));
+    EXPECT_EQ(one.exit_code, exit_code) << one.out << one.err;
+    EXPECT_EQ(all.exit_code, exit_code) << all.out << all.err;
+    EXPECT_EQ(one.verdict_line(), all.verdict_line());
+    EXPECT_EQ(bytes_of(folder.path("one.json")), bytes_of(folder.path("all.json")));
+  };
+  expect_same({}, 0);
+  if (verified_checker_is_there()) expect_same({"--verified"}, 0);
+  expect_same({"--require", "strict"}, 3);
+  write_wave(5, 1);
+  expect_same({}, 3);
+}
+
 TEST_F(InRanks, WrongUsageEndsTheJob) {
   EXPECT_EQ(job(2, {"verify", folder.path("none.ply"), folder.path("nor.ply")}).exit_code, 3);
   const Process other = job(2, {"info", write_motion(2)[0]});

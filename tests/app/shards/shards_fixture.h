@@ -41,6 +41,28 @@ class Shards : public testing::Test {
     return paths;
   }
 
+  /// Frame k of a sheet in waves, whose proof has half a megabyte a step.
+  std::string write_wave(int k, double lifted = 0) const {
+    constexpr int side = 48;
+    std::vector<Position> points;
+    std::vector<std::array<VertexId, 3>> faces;
+    for (int i = 0; i < side * side; ++i) {
+      const double x = i % side, y = static_cast<double>(i / side);
+      points.push_back({x, y, 0.25 * std::sin(0.5 * x + 0.25 * y + k) + lifted});
+    }
+    for (VertexId i = 0; i + side < side * side; ++i) {
+      if (i % side == side - 1) continue;
+      faces.push_back({i, i + 1, i + side});
+      faces.push_back({i + 1, i + side + 1, i + side});
+    }
+    return folder.write("wave_" + std::to_string(k) + ".ply", ply_text(points, faces));
+  }
+  Words write_waves(int frames) const {
+    Words paths;
+    for (int k = 0; k < frames; ++k) paths.push_back(write_wave(k));
+    return paths;
+  }
+
   static Words joined(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
