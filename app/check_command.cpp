@@ -39,7 +39,7 @@ constexpr const char* check_footer =
     "for one field at a time:\n"
     "  --require motion=rest       each frame by itself (noli verify --static)\n"
     "  --require dimension=2       z does not count (--dimension 2)\n"
-    "  --require steps=5           the first five steps, or windows; 40..60 or 40.. a part (--steps)\n"
+    "  --require steps=5           the first five steps, or windows\n"
     "  --require strict            also the features of one cell (--strict)\n"
     "  --require points            also vertices without a cell (--points)\n"
     "  --require distance=0.001    at least so far apart (--min-distance); ring=2 for its ring\n"
@@ -48,9 +48,9 @@ constexpr const char* check_footer =
     "  --require empty             fewer than two cells that could touch\n"
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
     "\n"
-    "A proof in a file is checked by several processes, each for a part of the steps. To check it on several machines, "
-    "give each its --shard K/N: nothing touches if all of them accept, and name the same proof=HASH (--json: "
-    "claim/part/proof). `mpirun noli check` shares the steps out to its ranks.\n"
+    "Several processes (--threads) share a proof that is in a file. To share it with other machines, run "
+    "`mpirun noli check`, or --shard 1/N, 2/N, ... anywhere: docs/scale.md says when all of them together prove that "
+    "nothing touches.\n"
     "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
     "answer (--time-limit, Ctrl-C); 3 anything else.\n"
@@ -67,7 +67,7 @@ struct CheckArguments {
   std::vector<std::string> require;
   std::optional<fs::path> claim;
   bool verified = false;
-  std::string shard;
+  std::string steps, shard;
   int threads = 0;
   FrameOrder order = FrameOrder::checked;
   FrameReading reading;
@@ -76,31 +76,45 @@ struct CheckArguments {
   OutputOptions results;
 };
 
-/// The word steps=A..B of --shard K/N.
+/// The words of --require; those of the command line count before those of --claim.
+std::vector<std::string> asked_by(const CheckArguments& arguments) {
+  std::vector<std::string> words = arguments.require;
+  if (!arguments.claim) return words;
+  for (const std::string& word : read_claim_file(*arguments.claim)) {
+    if (!asks(arguments.require, field_of(word))) words.push_back(word);
+  }
+  return words;
+}
+
+/// The steps of --shard K/N: the K-th of N parts of the proof, as A..B or A..
 std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   const ShardNumber shard = parse_shard(text);
   const std::vector<std::uint64_t> parts = parts_of_proof(proof, shard.of);
   if (parts.empty()) {
-    throw UsageError(proof.string() +
-                     ": cannot be checked in shards; expected a file with a whole proof, and no witness");
+    throw UsageError(
+        proof.string() +
+        ": has a witness, or is no file with a whole proof; expected it without --shard, which checks all");
   }
   if (parts.size() < shard.of) {
-    throw UsageError(
-        fmt::format("--shard {}: the proof has {} steps; expected at most so many shards", text, parts.size()));
+    const std::size_t steps = parts.size();
+    throw UsageError(fmt::format("--shard {}: the proof has {} step{}; expected K/N with N <= {}", text, steps,
+                                 steps == 1 ? "" : "s", steps));
   }
-  return "steps=" + steps_of_part(parts, shard.number - 1);
+  return steps_of_part(parts, shard.number - 1);
 }
 
-/// The words of --require; those of the command line count before those of --claim.
-std::vector<std::string> asked_by(const CheckArguments& arguments, const fs::path& proof) {
-  std::vector<std::string> words = arguments.require;
-  if (!arguments.shard.empty()) words.push_back(steps_of_shard(arguments.shard, proof));
-  if (!arguments.claim) return words;
-  const std::vector<std::string> here = words;
-  for (const std::string& word : read_claim_file(*arguments.claim)) {
-    if (!asks(here, field_of(word))) words.push_back(word);
+/// Asks for the steps of --steps or --shard instead of all. The last of all steps that a claim or the log of a run asks
+/// for stays the last one.
+void ask_for_part(const CheckArguments& arguments, const fs::path& proof, std::vector<std::string>& words) {
+  if (arguments.steps.empty() && arguments.shard.empty()) return;
+  if (asks(arguments.require, "steps")) {
+    throw UsageError("--require steps: says which steps, as --steps and --shard do; expected one of them");
   }
-  return words;
+  std::string steps = arguments.shard.empty() ? arguments.steps : steps_of_shard(arguments.shard, proof);
+  const std::uint64_t last = std::max<std::uint64_t>(asked_steps(words).value_or(0), steps_of_proof(proof));
+  if (steps.ends_with("..") && asks(words, "steps")) steps += std::to_string(last);
+  std::erase_if(words, [](const std::string& word) { return field_of(word) == "steps"; });
+  words.push_back("steps=" + steps);
 }
 
 /// Whether checkers read the motion themselves. What holds no frames by its name or first bytes is theirs to refuse.
@@ -128,7 +142,7 @@ std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ran
   for (const std::string& text : ranks.gather(Json(own).dump())) {
     for (std::string& part : Json::parse(text).get<std::vector<std::string>>()) words.push_back(std::move(part));
   }
-  auto joined = joined_words(words);
+  auto joined = joined_words(words, asked_steps(request.asked).value_or(0));
   return joined ? std::optional(CheckerVerdict{0, *std::move(joined)}) : std::nullopt;
 }
 
@@ -190,11 +204,12 @@ ExitCode run(CheckArguments& arguments) {
   const fs::path proof = proof_of(arguments, folder);
   std::optional<const Output> output;  // of the first rank alone
   if (!ranks || ranks->is_first()) output.emplace(arguments.results, inputs_of(arguments, ordered.frames));
-  std::vector<std::string> asked = asked_by(arguments, proof), notes = ordered.notes;
+  std::vector<std::string> asked = asked_by(arguments), notes = ordered.notes;
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
     if (output && !arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
   }
+  ask_for_part(arguments, proof, asked);
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   CheckRequest request{.checker = which,
                        .proof = proof,
@@ -232,12 +247,8 @@ Command add_check(CLI::App& app) {
   command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")
       ->type_name("CLAIM.json");
   CLI::Option* const steps =
-      command
-          ->add_option_function<std::string>(
-              "--steps", [arguments](const std::string& part) { arguments->require.push_back("steps=" + part); },
-              "Check these steps alone, from 1: the same as --require steps=A..B")
-          ->type_name("A..B | A..");
-  command->add_option("--shard", arguments->shard, "Check the K-th of N parts of the steps alone")
+      command->add_option("--steps", arguments->steps, "Check only these steps, counted from 1")->type_name("A..B|A..");
+  command->add_option("--shard", arguments->shard, "Check only the K-th of N parts of the steps, with one process")
       ->type_name("K/N")
       ->excludes(steps);
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");

@@ -36,6 +36,13 @@ Json weaker_json(const std::string& words) {
   return list;
 }
 
+Json checked_claim(const Claim& claim) {
+  Json json = claim_json(claim);
+  if (!claim.part) return json;
+  json["part"] = {{"first", claim.part->first}, {"last", claim.part->last}, {"proof", claim.part->proof}};
+  return json;
+}
+
 const char* word_of(const CheckerVerdict& verdict) {
   return verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
 }
@@ -61,7 +68,7 @@ Json check_json(const Checked& checked) {
           {"checker", checker_json(checker)},
           {"proof", proof.string()},
           {"asked", asked_json(asked)},
-          {"claim", claim ? claim_json(*claim) : Json(nullptr)},
+          {"claim", claim ? checked_claim(*claim) : Json(nullptr)},
           {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
           {"words", verdict.words},
           {"notes", notes}};

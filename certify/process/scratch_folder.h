@@ -17,8 +17,8 @@ class ScratchFolder {
 
   /// Throws std::system_error when no folder can be created there.
   explicit ScratchFolder(Place place = Place::disk);
-  /// Within another folder, for what may be larger than temporary files should be; where they are, if nothing can be
-  /// written there. Throws the same.
+  /// Within `parent`, for what may be too large for the system's temporary folder; that is used if `parent` is not
+  /// writable. Throws the same.
   explicit ScratchFolder(const std::filesystem::path& parent);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

@@ -84,9 +84,9 @@ std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frame
   const std::optional<CheckerVerdict> verdict = checker.finish();
   const std::exception_ptr fault = giving.join();
   // A witness refutes whatever follows. What was accepted is about all steps, and the checker saw only some, unless the
-  // request names the steps.
-  const bool named =
-      std::ranges::any_of(request.asked, [](const std::string& word) { return word.starts_with("steps="); });
+  // request names the last of them.
+  const bool named = std::ranges::any_of(
+      request.asked, [](const std::string& word) { return word.starts_with("steps=") && !word.ends_with(".."); });
   const bool settled = verdict && (verdict->code == 1 || (verdict->code == 0 && named));
   if (fault && !settled) std::rethrow_exception(fault);
   return verdict;

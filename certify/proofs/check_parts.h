@@ -20,8 +20,14 @@ namespace noli {
 /// parted: it is in no regular file, it is not a file of whole blocks, or it has a witness, which refutes all of it.
 std::vector<std::uint64_t> parts_of_proof(const std::filesystem::path& proof, std::size_t parts);
 
-/// The words --require steps=... for a part: "17..32", or "33.." for the last one.
+/// How many steps a proof in a file has; 0 if it cannot be parted.
+std::uint64_t steps_of_proof(const std::filesystem::path& proof);
+
+/// The steps of a part, as checkers are asked for them: "17..32", or "33.." for the last one.
 std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t part);
+
+/// N of the one word steps=N; 0 if no word is about steps; nothing if they ask for something else, or twice.
+std::optional<std::uint64_t> asked_steps(const std::vector<std::string>& asked);
 
 /// The first steps, from 1, of the parts that so many checkers take. Nothing if one should look at all steps: the proof
 /// or its trajectory cannot be read by several, the proof has a witness or is small, or a part of it is asked for.
@@ -29,13 +35,15 @@ std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t 
 std::vector<std::uint64_t> parts_of_check(const CheckRequest& request, int checkers);
 
 /// What checkers, `threads` at once, say of the parts from `begin` on and before `end`; nothing of one that is not
-/// accepted, or whose checker failed.
+/// accepted, or whose checker failed. After such a part the others are not checked to their end, unless request.stop is
+/// in use.
 std::vector<std::string> words_of_parts(const CheckRequest& request, const std::vector<std::uint64_t>& firsts,
                                         std::size_t begin, std::size_t end, int threads);
 
-/// What one checker would say of all steps, from what checkers said of the parts, in order; nothing if not all of them
-/// accept parts of one proof that follow each other from step 1.
-std::optional<std::string> joined_words(const std::vector<std::string>& words);
+/// What one checker would say of all steps, from what checkers said of the parts, in order. Nothing if not all of them
+/// accept parts of one proof that follow each other from step 1, or if there are fewer than `least_steps`.
+/// Precondition: the last part was asked for with an open end, so that it comes to the end of the trajectory.
+std::optional<std::string> joined_words(const std::vector<std::string>& words, std::uint64_t least_steps);
 
 /// The verdict of request.checkers at once, if all accept; what it says is what one checker says. If there is none, one
 /// checker should look at all steps.

@@ -245,11 +245,7 @@ bool can_be_asked(const Claim& claim) {
 std::vector<std::string> fields_of(const Claim& claim) {
   std::vector<std::string> fields;
   for (const auto& [key, value] : values(claim)) {
-    if (key == "from" || key == "to" || key == "part") continue;
-    if (key == "steps" && claim.part) {
-      fields.push_back(fmt::format("steps={}..{}", claim.part->first, claim.part->last));
-      continue;
-    }
+    if (key == "from" || key == "to") continue;
     if (key == "steps" && claim.steps == 0) continue;  // not known yet: all that the motion has
     if (key == "ring" && claim.distance == 0) continue;
     // For a run the pairs are those of its scene by default; they may be too many for a command line.
@@ -277,6 +273,7 @@ std::vector<std::string> fields_beyond_default(const Claim& claim) {
 }
 
 std::optional<std::string> difference(const Claim& asked, const Claim& checked, bool refuted) {
+  if (asked.part != checked.part) return "steps: asked was for all, the checker's are a part, or the other way around";
   const auto one = values(asked), other = values(checked);
   for (std::size_t i = 0; i < one.size(); ++i) {
     const std::string& key = one[i].first;
@@ -309,15 +306,11 @@ std::string distance_phrase(const Claim& claim) {
 }
 
 Json claim_json(const Claim& claim) {
-  Json json = {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
-               {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
-               {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", claim.excluded},
-               {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
-               {"to", claim.to}};
-  if (claim.part) {
-    json["part"] = {{"first", claim.part->first}, {"last", claim.part->last}, {"proof", claim.part->proof}};
-  }
-  return json;
+  return {{"motion", claim.motion}, {"dimension", claim.dimension}, {"steps", claim.steps},
+          {"strict", claim.strict}, {"points", claim.points},       {"distance", claim.distance},
+          {"ring", claim.ring},     {"merged", claim.merged},       {"excluded", claim.excluded},
+          {"cells", claim.cells},   {"empty", claim.empty},         {"from", claim.from},
+          {"to", claim.to}};
 }
 
 Json checker_json(const CheckerVersion& checker) {
@@ -328,7 +321,7 @@ Json claim_file(const Claim& claim) {
   Json json = {{"schema", schema}, {"version", schema_version}};
   const Json fields = claim_json(claim);  // items() only refers to it
   for (const auto& [key, value] : fields.items()) {
-    if (key != "from" && key != "to" && key != "part") json[key] = value;
+    if (key != "from" && key != "to") json[key] = value;
   }
   return json;
 }

@@ -10,6 +10,7 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/claim.h"
+#include "certify/shards/decided_steps.h"
 #include "certify/stopwatch.h"
 #include "trajectory/text.h"
 
@@ -59,9 +60,9 @@ ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
   can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
   file_ = request.proof;
   // Steps that are decided already take less time than their checker, so several checkers share them out.
-  const bool joined = request.decided && !pipe_;
+  const bool joined = request.decided && !pipe_ && request.threads != 1;
   const bool later = request.min_distance > 0 || request.follow || request.live;
-  if (!file_ && can_check_ && joined) file_ = folder_.emplace(request.decided_in).path() / "proof.noli";
+  if (!file_ && can_check_ && joined) file_ = folder_.emplace(request.decided->scratch()).path() / "proof.noli";
   if (!file_ && can_check_ && later) file_ = folder_.emplace().path() / "proof.noli";
   if (pipe_ && file_) {
     request.open_proof = [this](const Claim& claim) {
@@ -137,8 +138,7 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
 void ProofRoute::require_claim(const Claim& asked, const std::string& words, bool refuted) {
   const char* const word = refuted ? "refuted" : "accepted";
   const auto checked = claim_of_words(words);
-  if (!checked || checked->part)
-    throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
+  if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
   if (const auto other = difference(asked, *checked, refuted)) {
     throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
   }

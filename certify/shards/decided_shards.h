@@ -22,6 +22,7 @@ class DecidedShards : public DecidedSteps {
   void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
   std::optional<ListedNear> near(const Mesh& mesh) override;
   std::optional<LargestDistance> largest_distance() override;
+  std::filesystem::path scratch() const override { return folder_.path(); }
   void set_inputs(const std::vector<FrameFacts>& files) override;
   void set_claim(const Claim& claim) override;
 

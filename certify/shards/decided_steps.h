@@ -33,6 +33,9 @@ class DecidedSteps {
   /// The largest least distance at the beginning of that step, where it was looked for.
   virtual std::optional<LargestDistance> largest_distance() = 0;
 
+  /// A folder with room for about as much as the proof takes.
+  virtual std::filesystem::path scratch() const = 0;
+
   /// The files that are read, once they were looked at, and the claim: steps that were decided for others are refused.
   virtual void set_inputs(const std::vector<FrameFacts>& files) = 0;
   virtual void set_claim(const Claim& claim) = 0;

@@ -196,7 +196,6 @@ VerifyRequest request_of_shards(const fs::path& folder) {
   return reading((folder / "request.json").string(), [&] {
     VerifyRequest request = request_of_json(shards.request());
     request.decided = std::make_shared<DecidedShards>(std::move(shards));
-    request.decided_in = folder;
     return request;
   });
 }

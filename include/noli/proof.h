@@ -113,9 +113,9 @@ struct CheckRequest {
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the checker is ended
   std::filesystem::path programs = {};      ///< the checkers' folder; empty: that of this program
   /// At most so many processes at once, each for a part of the steps, if `proof` and `trajectory` are files; 0: as many
-  /// as the machine has threads. What they say is the same.
+  /// as the machine has threads. Each has a mesh and frames of its own in memory. What they say is the same.
   int checkers = 1;
-  /// Called now and then with the share of `proof` that the checker has read, in [0, 1], if the system tells it.
+  /// Called now and then, by any thread but one at a time, with the share of `proof` that the checker has read, in [0, 1], if the system tells it.
   std::function<void(double share)> progress = {};
 };
 

@@ -93,7 +93,6 @@ struct VerifyRequest {
   std::optional<StepRange> only;                 ///< of frames: decide these steps alone
   std::vector<StepResult>* decisions = nullptr;  ///< of frames: gets what was found in each step, without its proof
   std::shared_ptr<DecidedSteps> decided;         ///< of frames: has what would be found in each step
-  std::filesystem::path decided_in;              ///< the folder that `decided` reads
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }

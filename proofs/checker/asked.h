@@ -89,19 +89,19 @@ class Asked {
     require_word(eta_ > 0 || ring_ == 1, "ring", "says who may be nearer than a distance: expected distance=ETA too");
   }
 
-  /// Whether a part of the steps is asked for, as steps=A..B or steps=A.. does. The others are then passed over.
+  /// Whether a part of the steps is asked for: steps=A..B or steps=A... The others are then passed over.
   bool part() const { return part_; }
   /// The first step that is asked for, from 0.
   std::uint64_t first() const { return first_ - 1; }
-  /// Whether the proof of a step is looked at, by its number from 0.
+  /// Whether the step with this number, from 0, is looked at.
   bool counts(const Claim& claim, std::uint64_t number) const {
     const std::uint64_t ends = claim.source == 1 && source(claim) == 0 ? 1 : 0;  // frame k ends step k - 1
-    return !part_ || (first() <= number && (!steps_ || number < *steps_ + ends));
+    return !part_ || (first() <= number && (!last_ || number < *last_ + ends));
   }
-  /// Whether a last step is asked for by name, and the claim up to the step number `steps`, at least one, is enough.
+  /// Whether a last step is asked for by name, and a claim up to step `steps`, counted from 1, reaches it. 0: no step.
   bool enough_steps(const Claim& claim, std::uint64_t steps) const {
     const std::uint64_t ends = claim.source == 0 && source(claim) == 1 ? 1 : 0;  // frame k ends step k - 1
-    return steps_ && steps > 0 && steps + ends >= *steps_;
+    return last_ && steps > 0 && steps + ends >= *last_;
   }
 
   /// Rejects a claim that is weaker than asked. `flat`: each of its steps is flat.
@@ -129,8 +129,8 @@ class Asked {
   }
   /// Rejects a claim of too few steps. `more`: the trajectory has more.
   void require_steps(const Claim& claim, std::uint64_t steps, bool more) const {
-    const std::string wanted = steps_ ? text_of_steps(*steps_) : "all of them, and the trajectory goes on";
-    Says{"the proof"}.require(steps_ ? enough_steps(claim, steps) : !more, "steps", text_of_steps(steps), wanted);
+    const std::string wanted = last_ ? text_of_steps(*last_) : "all of them, and the trajectory goes on";
+    Says{"the proof"}.require(last_ ? enough_steps(claim, steps) : !more, "steps", text_of_steps(steps), wanted);
   }
   /// How many steps, or from which to which.
   std::string text_of_steps(std::uint64_t last) const {
@@ -143,7 +143,7 @@ class Asked {
     witness.require(claim.source == motion || (claim.source == 1 && motion == 0), "motion", motions[claim.source],
                     motions[motion]);
     const std::uint64_t step = shown.step + (claim.source == motion ? 1 : 0);  // frame k is in steps k - 1 and k
-    witness.require(!steps_ || step <= *steps_, "steps", std::to_string(step), text_of_steps(steps_.value_or(0)));
+    witness.require(!last_ || step <= *last_, "steps", std::to_string(step), text_of_steps(last_.value_or(0)));
     witness.require(claim.dimension >= space || shown.flat, "dimension", std::to_string(claim.dimension),
                     std::to_string(space));
     witness.require(!shown.one_cell || strict_, "strict", "1", "0");
@@ -229,7 +229,7 @@ class Asked {
     part_ = dots != std::string::npos;
     if (part_) first_ = number(word, value.substr(0, dots), std::uint32_t{1});
     const std::string last = part_ ? value.substr(dots + 2) : value;
-    if (!part_ || !last.empty()) steps_ = number(word, last, first_);
+    if (!part_ || !last.empty()) last_ = number(word, last, first_);
   }
   /// A number that begins with a digit, so without a sign.
   template <class T>
@@ -261,8 +261,8 @@ class Asked {
 
   std::set<std::string> given_;
   std::optional<std::uint32_t> source_, dimension_;
-  std::optional<std::uint64_t> steps_;  ///< the last one, from 1
-  std::uint32_t first_ = 1;
+  std::uint32_t first_ = 1;            ///< the first step, from 1
+  std::optional<std::uint64_t> last_;  ///< the last one; nothing: to the end of the trajectory
   bool part_ = false;
   bool strict_ = false, points_ = false, empty_ = false;
   double eta_ = 0;

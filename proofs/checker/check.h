@@ -51,15 +51,15 @@ class Check {
       if (proof_.ended()) break;
       step(proof_.as("STEP", std::move(block)), read);
     }
-    require(steps_ > 0, "the proof", "a claim about no steps");
-    require(looked_at_ > 0, "the proof", "has none of the steps that are asked for");
+    require(trajectory_steps_ > 0, "the proof", "a claim about no steps");
+    require(checked_ > 0, "the proof", "has none of the steps that are asked for");
     if (refuted_) return refuted_;
     if (in_vain_ && !asked_.enough_steps(claim_, proved_)) throw Rejected(*in_vain_);
     asked_.require_claimed(claim_, flat_);
     const bool all = in_vain_ || asked_.enough_steps(claim_, proved_) || !trajectory_->next(motion_);
     asked_.require_steps(claim_, proved_, !all);
     first_steps_ = in_vain_ || trajectory_->more();
-    steps_ = proved_;
+    trajectory_steps_ = proved_;
     times_[1] = proved_until_;
     return std::nullopt;
   }
@@ -79,9 +79,10 @@ class Check {
     return text;
   }
   /// How many steps a proof or witness is about; of a part, which.
-  std::string steps() const { return asked_.text_of_steps(steps_); }
-  /// Of a part of the steps: the running hash of the whole proof, which is equal for parts of one proof alone.
-  std::optional<Sha256::Digest> whole() const { return asked_.part() ? std::optional(proof_.hash()) : std::nullopt; }
+  bool part() const { return asked_.part(); }
+  std::string steps() const { return asked_.text_of_steps(trajectory_steps_); }
+  /// The last running hash of the proof. Parts of the same proof have the same one.
+  const Sha256::Digest& proof() const { return proof_.hash(); }
   /// The first T0 and the last T1 of these steps.
   std::array<double, 2> times() const { return times_; }
 
@@ -154,9 +155,9 @@ class Check {
   Head read_head(Reader& c, std::uint64_t read) {
     Head s{};
     s.number = c.u64();
-    const bool known = s.number < known_ || s.number + 1 == 0;
-    c.require(!known && (gaps_ || s.number == read), "a step has the wrong number");
-    known_ = s.number + 1;
+    c.require(s.number < std::uint64_t{1} << 53, "a number is too large");
+    c.require(s.number >= proof_steps_ && (gaps_ || s.number == read), "a step has the wrong number");
+    proof_steps_ = s.number + 1;
     s.t0 = c.f64();
     s.t1 = c.f64();
     s.p = c.raw<std::int32_t>();
@@ -170,32 +171,34 @@ class Check {
   }
 
   /// Reads the trajectory up to this step, which has to be about what is there. Returns whether it is flat.
-  bool find_motion(const Head& s, const Reader& c) {
-    if (asked_.part() && steps_ == 0) {
-      steps_ = s.number;
-      trajectory_->pass(steps_);
+  bool find_motion(const Head& s, Reader& c) {
+    if (asked_.part() && trajectory_steps_ == 0) {
+      trajectory_steps_ = s.number;
+      trajectory_->pass(trajectory_steps_);
     }
-    for (; steps_ <= s.number; ++steps_) {
+    for (; trajectory_steps_ <= s.number; ++trajectory_steps_) {
       c.require(trajectory_->next(motion_), "the trajectory has no such step");
     }
     c.require(s.t0 == motion_.t0 && s.t1 == motion_.t1, "the trajectory's step has another time");
+    c.end();
     const bool flat = is_flat();
     for (auto& x : motion_.x) x[2] = claim_.dimension == 2 ? 0 : x[2];
     c.require(motion_.hash() == s.hash, "the step is about another motion than that of the trajectory");
     return flat;
   }
 
-  /// The step before a part has to be about the trajectory too: so two parts have the same positions between them.
+  /// The motion of the step before a part is compared too, so that parts which follow each other have the same positions
+  /// between them.
   void step(Reader c, std::uint64_t read) {
     const Head s = read_head(c, read);
     const bool counts = asked_.counts(claim_, s.number), before = s.number + 1 == asked_.first();
-    const std::uint64_t next = std::max(steps_, asked_.first());
+    const std::uint64_t next = std::max(trajectory_steps_, asked_.first());
     c.require(!counts || witnessed() || s.number == next, "a step that is asked for is missing before this one");
     const bool flat = (counts || before) && find_motion(s, c);
     c.end();
     if (!counts) return pass_over(s);
-    times_ = {looked_at_ == 0 ? s.t0 : times_[0], s.t1};
-    ++looked_at_;
+    times_ = {checked_ == 0 ? s.t0 : times_[0], s.t1};
+    ++checked_;
     // Merged vertices are at the same place at all times; they have the breakpoints of frames.
     for (std::size_t v = 0; v < claim_.same.size(); ++v) {
       const std::uint64_t i = motion_.begin[v], j = motion_.begin[claim_.same[v]];
@@ -208,22 +211,24 @@ class Check {
     prove(motion, c);
     if (witnessed()) return;
     flat_ = flat_ && flat;
-    proved_ = steps_;
+    proved_ = trajectory_steps_;
     proved_until_ = s.t1;
   }
 
-  /// A later step may need the tree of one that is passed over.
-  void pass_over(const Head& s) {
+  /// The next block of a proof step, after TREE if there is one. That is kept: a later step may need it.
+  std::optional<Block> after_tree() {
     auto block = proof_.next();
+    if (!block || block->kind != "TREE") return block;
+    new_tree_ = std::move(block->data);
+    return proof_.next();
+  }
+
+  void pass_over(const Head& s) {
     if (s.kind == 1) {
-      proof_.as("WITN", std::move(block));
+      proof_.expect("WITN");
       return proof_.expect_commit();
     }
-    if (block && block->kind == "TREE") {
-      passed_tree_ = std::move(block->data);
-      block = proof_.next();
-    }
-    for (; block; block = proof_.next()) proof_.as("TOKS", std::move(block));
+    for (auto block = after_tree(); block; block = proof_.next()) proof_.as("TOKS", std::move(block));
   }
 
   bool witnessed() const { return refuted_ || in_vain_; }
@@ -237,13 +242,9 @@ class Check {
   }
 
   void prove(const Integers& motion, const Reader& c) {
-    auto block = proof_.next();
-    if (block && block->kind == "TREE") {
-      passed_tree_ = std::move(block->data);
-      block = proof_.next();
-    }
-    if (passed_tree_) tree_.emplace(std::move(*passed_tree_), claim_.cells);
-    passed_tree_.reset();
+    auto block = after_tree();
+    if (new_tree_) tree_.emplace(std::move(*new_tree_), claim_.cells);
+    new_tree_.reset();
     c.require(tree_.has_value(), "the first step has no tree");
     Obligations obligations(claim_, motion, *tree_);
     for (; block; block = proof_.next()) {
@@ -274,10 +275,10 @@ class Check {
   std::unique_ptr<Trajectory> trajectory_;
   Claim claim_;
   std::optional<Tree> tree_;
-  std::optional<Reader> passed_tree_;  ///< of a step before; not read yet
+  std::optional<Reader> new_tree_;  ///< that replaces it, not read yet
   Motion motion_;
-  std::uint64_t known_ = 0, steps_ = 0;  ///< steps that the file knows of, and those of them in the trajectory
-  std::uint64_t looked_at_ = 0, proved_ = 0;
+  std::uint64_t proof_steps_ = 0, trajectory_steps_ = 0;  ///< steps that the file knows of, and those of them in the trajectory
+  std::uint64_t checked_ = 0, proved_ = 0;
   bool gaps_ = false;  ///< a witness was there, after which steps may be missing
   std::array<double, 2> times_{};
   double proved_until_ = 0;

@@ -29,15 +29,14 @@ static void print_fields(const Check& check) {
   std::printf(" excluded=%s cells=%s empty=%d from=%s to=%s", text_of(claim.excluded).c_str(),
               text_of(claim.hash).c_str(), compares_any(claim, claim.strict) ? 0 : 1, text_of(check.times()[0]).c_str(),
               text_of(check.times()[1]).c_str());
-  const auto whole = check.whole();
-  std::printf("%s\n", whole ? (" proof=" + text_of(*whole)).c_str() : "");
+  std::printf("%s\n", check.part() ? (" proof=" + text_of(check.proof())).c_str() : "");
 }
 
 /// Prints the claim for people.
 static void print_claim(const Check& check) {
   const Claim& claim = check.claim();
   constexpr std::array sources = {"frames, straight lines between them", "frames at rest", "a run"};
-  std::printf(check.whole() ? "Steps %s" : "%s steps", check.steps().c_str());
+  std::printf(check.part() ? "Steps %s" : "%s steps", check.steps().c_str());
   std::printf(" of %s; from %.17g to %.17g; dimension %u; %zu cells of %zu vertices.\n", sources[claim.source],
               check.times()[0] + 0.0, check.times()[1] + 0.0, claim.dimension, claim.cells.size(), claim.same.size());
   std::printf("Compared: features of two different cells%s.\n", claim.strict ? ", and of one" : "");

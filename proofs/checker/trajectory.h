@@ -89,7 +89,7 @@ class Trajectory {
   virtual ~Trajectory() = default;
   /// The next step, if there is one.
   virtual bool next(Motion& motion) = 0;
-  /// Leaves out the first steps, so many, before any was read. What is not there is left to next() to say.
+  /// Skips the first `steps` steps. To be called before next(); if the trajectory is shorter, next() returns false.
   virtual void pass(std::uint64_t steps) = 0;
   /// Whether something follows. It is not read.
   virtual bool more() = 0;
@@ -128,7 +128,7 @@ class FrameReader {
   /// The next frame, if there is one. Its mesh is that of the first.
   std::optional<Frame> next() { return file_ ? of_file() : of_paths(); }
   bool more() { return file_ ? file_->more() : read_ < paths_.size(); }
-  /// Leaves out some frames: files of their own are not even opened.
+  /// Skips so many frames. Those in files of their own are not opened.
   void pass(std::uint64_t frames) {
     if (!file_) read_ += std::min(frames, paths_.size() - read_);
     for (std::uint64_t i = 0; file_ && i < frames && next(); ++i) {

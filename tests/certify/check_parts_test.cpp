@@ -31,7 +31,7 @@ std::string part(int first, int last, const std::string& hash = std::string(64, 
 }
 
 TEST(JoinedWords, AreThoseOfOneChecker) {
-  const auto joined = joined_words({part(1, 4), part(5, 5), part(6, 12)});
+  const auto joined = joined_words({part(1, 4), part(5, 5), part(6, 12)}, 0);
   ASSERT_TRUE(joined.has_value());
   EXPECT_EQ(*joined,
             "accepted: nothing that is compared touches; not compared: 1-2\n"
@@ -40,33 +40,55 @@ TEST(JoinedWords, AreThoseOfOneChecker) {
             "Compared: features of two different cells.\n");
 }
 
+TEST(JoinedWords, AreAboutAsManyStepsAsAreAskedFor) {
+  EXPECT_TRUE(joined_words({part(1, 4), part(5, 9)}, 9).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(5, 9)}, 10).has_value());
+}
+
+TEST(AskedSteps, AreANumberAskedForOnce) {
+  EXPECT_EQ(asked_steps({"strict", "distance=1"}), 0U);
+  EXPECT_EQ(asked_steps({"strict", "steps=12"}), 12U);
+  for (const char* const word : {"steps", "steps=", "steps=0", "steps=1..2", "steps=3..", "steps=x", "steps=-1"}) {
+    EXPECT_EQ(asked_steps({word}), std::nullopt) << word;
+  }
+  EXPECT_EQ(asked_steps({"steps=2", "steps=3"}), std::nullopt);
+  EXPECT_EQ(asked_steps({"steps=2", "steps"}), std::nullopt);
+  EXPECT_EQ(asked_steps({"steps", "steps=2"}), std::nullopt);
+}
+
+TEST(JoinedWords, AreOfPartsAlone) {
+  EXPECT_FALSE(joined_words({"accepted: nothing touches\nclaim motion=linear steps=4 strict=0 from=0 to=4\n"}, 0));
+  EXPECT_FALSE(joined_words({"accepted: nothing touches; steps 1..2\n"}, 0));
+  EXPECT_FALSE(joined_words({"; steps .."}, 0));
+}
+
 TEST(JoinedWords, LackNoStepAndHaveNoneTwice) {
-  EXPECT_TRUE(joined_words({part(1, 4), part(5, 9)}).has_value());
-  EXPECT_FALSE(joined_words({part(1, 4), part(6, 9)}).has_value());
-  EXPECT_FALSE(joined_words({part(1, 4), part(4, 9)}).has_value());
-  EXPECT_FALSE(joined_words({part(2, 4), part(5, 9)}).has_value());
-  EXPECT_FALSE(joined_words({part(5, 9), part(1, 4)}).has_value());
-  EXPECT_FALSE(joined_words({part(1, 4), part(5, 3)}).has_value());
-  EXPECT_FALSE(joined_words({}).has_value());
+  EXPECT_TRUE(joined_words({part(1, 4), part(5, 9)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(6, 9)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(4, 9)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(2, 4), part(5, 9)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(5, 9), part(1, 4)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(5, 3)}, 0).has_value());
+  EXPECT_FALSE(joined_words({}, 0).has_value());
 }
 
 TEST(JoinedWords, AreAboutOneProofAndOneClaim) {
-  EXPECT_FALSE(joined_words({part(1, 4), part(5, 9, std::string(64, 'b'))}).has_value());
-  EXPECT_FALSE(joined_words({part(1, 4), part(5, 9, std::string(64, 'a'), "1")}).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(5, 9, std::string(64, 'b'))}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), part(5, 9, std::string(64, 'a'), "1")}, 0).has_value());
 }
 
 TEST(JoinedWords, AreAcceptedByAll) {
   std::string refuted = part(5, 9), cut = part(5, 9);
   refuted.replace(0, 8, "refuted:");
-  EXPECT_FALSE(joined_words({part(1, 4), refuted}).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), refuted}, 0).has_value());
   for (std::size_t size = 0; size < 200; size += 7)
-    EXPECT_FALSE(joined_words({part(1, 4), cut.substr(0, size)}).has_value());
-  EXPECT_FALSE(joined_words({part(1, 4), ""}).has_value());
+    EXPECT_FALSE(joined_words({part(1, 4), cut.substr(0, size)}, 0).has_value());
+  EXPECT_FALSE(joined_words({part(1, 4), ""}, 0).has_value());
   // The lines disagree about the steps.
   for (const char* const line : {"; steps 5..9", " steps=5..9", "Steps 5..9", "from 4"}) {
     std::string other = part(5, 9);
     other[other.find(line) + std::string(line).find_first_of("54")] = '1';
-    EXPECT_FALSE(joined_words({part(1, 4), other}).has_value()) << line;
+    EXPECT_FALSE(joined_words({part(1, 4), other}, 0).has_value()) << line;
   }
 }
 
@@ -120,6 +142,9 @@ TEST_F(PartsOfProof, OfAFileThatCannotBePartedAreNone) {
        {std::size_t{0}, std::size_t{10}, std::size_t{20}, bytes.size() / 2, bytes.size() - 1}) {
     EXPECT_TRUE(parts_of_proof(folder.write("cut.noli", bytes.substr(0, size)), 2).empty()) << size;
   }
+  std::string other_step = bytes;
+  other_step[other_step.find("STEP") + 4] = 64;
+  EXPECT_TRUE(parts_of_proof(folder.write("step.noli", other_step), 2).empty());
   std::string long_block = bytes;
   long_block[16 + 4 + 7] = '\x7f';  // the highest byte of a length
   EXPECT_TRUE(parts_of_proof(folder.write("long.noli", long_block), 2).empty());

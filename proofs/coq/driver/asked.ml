@@ -78,13 +78,13 @@ let require_cells who asked claim =
 (* How many steps, or from which to which. *)
 let steps_text asked last = (if asked.is_part then string_of_int asked.from_step ^ ".." else "") ^ string_of_int last
 
-(* Whether a step, counted from 0, is looked at; the others of a part are passed over. Frame k ends step k - 1. *)
+(* Whether the step with this number, from 0, is looked at. Frame k ends step k - 1. *)
 let counts asked claim number =
   let ends = if claim.source = 1 && source_of asked claim = 0 then 1 else 0 in
   not asked.is_part
   || (asked.from_step <= number + 1 && Option.fold ~none:true ~some:(fun n -> number < n + ends) asked.steps)
 
-(* A last step is asked by name, and those up to this one, at least one, are enough. *)
+(* A last step is asked by name, and a claim up to this step, counted from 1, reaches it. 0: no step. *)
 let enough_steps asked claim steps =
   let ends = if claim.source = 0 && source_of asked claim = 1 then 1 else 0 in
   match asked.steps with Some n -> steps > 0 && steps + ends >= n | None -> false
@@ -167,7 +167,7 @@ let with_field asked word =
   | "dimension" -> { asked with by_dimension = Some (number 2 3 value) }
   | "steps" ->
     (match String.split_on_char '.' value with
-     | first :: "" :: last ->
+     | first :: "" :: (_ :: _ as last) ->
        let from_step = number 1 mask first and last = String.concat "." last in
        { asked with is_part = true; from_step; steps = if last = "" then None else Some (number from_step mask last) }
      | _ -> { asked with steps = Some (number 1 mask value) })

@@ -172,10 +172,14 @@ let refute file claim number flat scene =
      (if near then "are too near" else "meet"),
    { step = number; one_cell = i = j; of_points = max i j >= claim.listed; near; labels = (min a b, max a b); flat })
 
-(* What the proof has said up to a step: how many it knows of, and how many of them the trajectory has; whether a witness
-   was there, after which some may be missing. Of the steps that were looked at: T0 of the first (nothing: there was none)
-   and T1 of the last; how many are proved before the first witness, until when, and whether they are flat. Then the first
-   witness in words that refutes what is asked, and why the first does not count that refutes another claim alone. *)
+(* What the proof has said up to a step.
+   known: how many steps it has, up to the last one so far
+   steps: how many of them were read from the trajectory
+   gaps: a witness was there, after which steps may be missing
+   from, until: T0 of the first step that was looked at, T1 of the last one
+   proved, proved_until, all_flat: the last step that is proved before a witness, its T1, and whether all are flat
+   refuted: the first witness that refutes what is asked, in words
+   in_vain: why the first witness does not count that refutes another claim alone *)
 type said = { known : int; steps : int; gaps : bool; from : float option; until : float; proved : int;
               proved_until : float; all_flat : bool; refuted : string option; in_vain : string option }
 
@@ -192,7 +196,7 @@ let conclude asked claim said =
     ({ said with steps = said.proved; until = said.proved_until }, said.in_vain <> None || claim.motion.more ())
   end
 
-(* The motion of a step, of a trajectory that has come to another one. *)
+(* The motion of a step, from a trajectory of which came_to steps were read. *)
 let find_motion c asked claim came_to number t0 t1 hash =
   let rec go_on k = match claim.motion.next () with
     | Some m -> if k < number then go_on (k + 1) else m
@@ -203,8 +207,8 @@ let find_motion c asked claim came_to number t0 t1 hash =
   check c (hash = Lazy.force m.hash) "the step is about another motion than the trajectory's";
   m
 
-(* The steps that follow; tree is the last one. The step before a part has to be about the trajectory too: so two parts
-   have the same positions between them. *)
+(* The steps that follow; tree is the last one. The motion of the step before a part is compared too, so that parts which
+   follow each other have the same positions between them. *)
 let rec check_steps file asked claim tree said =
   match next file with
   | "", c ->
@@ -212,6 +216,7 @@ let rec check_steps file asked claim tree said =
     check c (said.from <> None) "the proof has none of the steps that are asked for"; conclude asked claim said
   | kind, c ->
     let number = if kind = "STEP" then u64 c else fail c "expected a block STEP" in
+    check c (number < 1 lsl 53) "a number is too large";
     check c (number >= said.known && (said.gaps || number = said.known)) "a step has the wrong number";
     (* What a large step before this one needed is given back first. *)
     if (Gc.quick_stat ()).heap_words > 1 lsl 23 then Gc.full_major ();

@@ -211,12 +211,14 @@ for name, proof, files, code in good: agree(name, proof, files, code)
 # What is asked: the default, one field after another, several at once, and impossible fields
 
 FIELDS = ["motion=linear", "motion=rest", "motion=run", "dimension=2", "dimension=3", "steps=1", "steps=2", "steps=3",
-          "steps=4", "steps=1..1", "steps=1..2", "steps=2..2", "steps=2..", "steps=1..", "steps=2..9", "steps=9..", "strict", "strict=0", "points", "points=1", "distance=0", "distance=1e-9", "distance=0.5",
+          "steps=4", "steps=1..1", "steps=1..2", "steps=2..2", "steps=2..", "steps=1..", "steps=2..9", "steps=9..",
+          "strict", "strict=0", "points", "points=1", "distance=0", "distance=1e-9", "distance=0.5",
           "distance=1.2", "distance=1.25", "ring=1", "ring=2", "ring=3", "merged=0", "merged=1", "merged=4", "merged=9",
           "excluded=", "excluded=0-0", "excluded=0-1,1-1", "cells=" + "0" * 64, "empty", "empty=0"]
 IMPOSSIBLE = ["", "=", "motion", "motion=", "motion=Rest", "dimension", "dimension=1", "dimension=4", "dimension=+2",
               "steps=0", "steps=-1", "steps=1.0", "steps=99999999999",
-              "steps=0..1", "steps=2..1", "steps=..2", "steps=1..2..", "steps=1.2", "steps=1...2", "steps=1..99999999999", "strict=", "strict=2", "strict=yes", "points=2",
+              "steps=0..1", "steps=2..1", "steps=..2", "steps=1..2..", "steps=1.2", "steps=1...2", "steps=1..99999999999",
+              "steps=1.", "steps=.", "steps=..", "strict=", "strict=2", "strict=yes", "points=2",
               "distance", "distance=-1", "distance=-0", "distance=nan", "distance=inf", "distance=1e999", "distance=.5",
               "distance=1e-999", "distance=0x1", "distance=1 ", "ring=0", "ring=4294967296", "merged=", "merged=-1",
               "excluded", "excluded=1", "excluded=1-", "excluded=-1", "excluded=2-1", "excluded=1-2,", "excluded=,1-2",
@@ -309,6 +311,25 @@ for name, proof, files, code in good:
         for part in ("steps=1..1", "steps=2.."):
             agree(f"{name}, changed {k} {blocks[i][0]}, {part}", work / "broken", files, None,
                   own_claim(work / "broken") + [part])
+
+# Numbers of steps behind a witness, where some may be missing: ascending, and below 2^53
+for name, proof, files, code in good:
+    groups = [[]]
+    for block in blocks_of(proof.read_bytes()):
+        groups[-1].append(block)
+        if block[0] == "CMIT": groups.append([])
+    witness = [i for i, group in enumerate(groups) if len(group) > 1 and group[1][0] == "WITN"]
+    if not witness: continue
+    for number in (1, 2, 2**31, 2**53 - 1, 2**53, 2**62 - 1, 2**62, 2**63, 2**64 - 1):
+        group = groups[witness[0]]
+        later = [("STEP", field(group[0][1], 0, struct.pack("<Q", number)))] + group[1:]
+        made = [block for g in groups[:witness[0] + 1] + [later, group] for block in g]
+        for part in ([], ["steps=1..1"], ["steps=2.."], ["steps=2..2"], ["steps=3.."]):
+            path = write("broken", block_file(b"PROF", made))
+            agree(f"{name}, step {number}, {part}", path, files, None, own_claim(path) + part)
+            last_only = [block for g in groups[:witness[0] + 1] + [later] for block in g]
+            path = write("broken", block_file(b"PROF", last_only))
+            agree(f"{name}, last step {number}, {part}", path, files, None, own_claim(path) + part)
 
 # Runs that are not what the proof is about, or no runs
 for name in ("bounce", "plane_curtain"):

@@ -31,8 +31,8 @@ let check_multiples c p q m =
   check_from m.times (m.times + (8 * n)) q; check_from m.positions (m.positions + (8 * m.dimension * n)) p
 
 (* Labels are one a cell; of a run, fits tells whether a list of their pairs is that of those which it excludes. more
-   tells whether something follows, and does not look at it. pass leaves out the first steps, so many, before any was
-   read. *)
+   tells whether something follows, and does not look at it. pass skips the first steps, so many; it is called before
+   next, which gives nothing if the trajectory is shorter. *)
 type trajectory = { dimension : int; mesh : Frames.mesh; labels : int array; fits : (int * int) list -> bool;
                     next : unit -> motion option; more : unit -> bool; pass : int -> unit }
 
@@ -70,7 +70,7 @@ let read_mesh c =
 let rec repeat n one = if n > 0 && one () <> None then repeat (n - 1) one
 
 (* The mesh, a function that gives the positions of the next frame, one that tells whether there is one, and one that
-   leaves out some: of PLY and OBJ files, or of one block file of frames. *)
+   skips some: of PLY and OBJ files, or of one block file of frames. *)
 let frames_of_file path =
   let file = open_file path "FRMS" in
   let mesh = read_mesh (expect file "MESH") and count = ref 0 in

@@ -58,11 +58,20 @@ TEST_F(CheckedParts, AskForWhatOneCheckerIsAskedFor) {
     EXPECT_TRUE(accepted_in_parts(several).has_value()) << word;
     EXPECT_EQ(check_proof(one).words, check_proof(several).words) << word;
   }
-  for (const char* const word : {"steps=9", "steps=2..3", "steps=x", "strict", "distance=1", "nothing"}) {
+  const std::vector<Words> refused = {{"steps=9"},
+                                      {"steps=2..3"},
+                                      {"steps=x"},
+                                      {"steps"},
+                                      {"strict"},
+                                      {"distance=1"},
+                                      {"nothing"},
+                                      {"steps=3", "steps=4"},
+                                      {"steps=8", "steps=2..3"}};
+  for (const Words& words : refused) {
     CheckRequest one = request(1), several = request(3);
-    one.asked = several.asked = {word};
-    EXPECT_FALSE(accepted_in_parts(several).has_value()) << word;
-    EXPECT_EQ(check_proof(one).words, check_proof(several).words) << word;
+    one.asked = several.asked = words;
+    EXPECT_FALSE(accepted_in_parts(several).has_value()) << words[0];
+    EXPECT_EQ(check_proof(one).words, check_proof(several).words) << words[0];
   }
 }
 
@@ -105,6 +114,37 @@ TEST_F(CheckedParts, AreShardsThatNameOneProof) {
   EXPECT_EQ(next, static_cast<std::uint64_t>(frames));
 }
 
+/// A claim of more steps than there are is not that of the steps that are there.
+TEST_F(CheckedParts, ReachTheLastStepOfTheClaim) {
+  const std::string claim = folder.path("claim.json");
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--claim-out", claim}, names)).exit_code, 0);
+  EXPECT_EQ(check({"--claim", claim, "--shard", "2/2"}).exit_code, 0);
+  EXPECT_EQ(check({"--claim", claim, "--steps", "5.."}).exit_code, 0);
+  const Words fewer(names.begin(), names.end() - 2);
+  names = fewer;
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--force", "--proof", proof()}, names)).exit_code, 0);
+  EXPECT_EQ(check({"--claim", claim}).exit_code, 3);
+  EXPECT_EQ(check({"--claim", claim, "--shard", "1/2"}).exit_code, 0);
+  EXPECT_EQ(check({"--claim", claim, "--shard", "2/2"}).exit_code, 3);
+  EXPECT_EQ(check({"--claim", claim, "--steps", "5.."}).exit_code, 3);
+  EXPECT_EQ(check({"--claim", claim, "--steps", "5..6"}).exit_code, 0);
+}
+
+/// Frames that are passed on to the checker end where one cannot be read; that is not where they end.
+TEST_F(CheckedParts, DoNotEndAtAFrameThatCannotBeRead) {
+  const std::string text = bytes_of(names[6]);
+  folder.write("wave_6.ply", text.substr(0, text.size() / 2));
+  const auto check_body = [&](const Words& more) {
+    return run_noli(joined({"check", proof(), "--body", "sheet=" + folder.path("wave_*.ply")}, more)).exit_code;
+  };
+  EXPECT_EQ(check_body({"--steps", "1..5"}), 0);
+  EXPECT_EQ(check_body({"--steps", "1..6"}), 3);
+  EXPECT_EQ(check_body({"--steps", "1.."}), 3);
+  EXPECT_EQ(check_body({}), 3);
+  folder.write("wave_6.ply", text);
+  EXPECT_EQ(check_body({"--steps", "1.."}), 0);
+}
+
 TEST_F(CheckedParts, OfSomeStepsAreNamedInTheVerdict) {
   const Process some = check({"--steps", "3..4"});
   EXPECT_EQ(some.exit_code, 0);
@@ -115,8 +155,10 @@ TEST_F(CheckedParts, OfSomeStepsAreNamedInTheVerdict) {
   EXPECT_EQ(check({"--shard", "3"}).exit_code, 3);
   const Process many = check({"--shard", "2/9"});
   EXPECT_EQ(many.exit_code, 3);
-  EXPECT_NE(many.err.find("the proof has 8 steps; expected at most so many shards"), std::string::npos) << many.err;
+  EXPECT_NE(many.err.find("the proof has 8 steps; expected K/N with N <= 8"), std::string::npos) << many.err;
   EXPECT_EQ(check({"--shard", "1/2", "--steps", "1..2"}).exit_code, 3);
+  EXPECT_EQ(check({"--shard", "1/2", "--require", "steps=2"}).exit_code, 3);
+  EXPECT_EQ(check({"--steps", "1..2", "--require", "steps=5"}).exit_code, 3);
 }
 
 }  // namespace
