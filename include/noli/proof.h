@@ -115,7 +115,8 @@ struct CheckRequest {
   /// At most so many processes at once, each for a part of the steps, if `proof` and `trajectory` are files; 0: as many
   /// as the machine has threads. Each has a mesh and frames of its own in memory. What they say is the same.
   int checkers = 1;
-  /// Called now and then, by any thread but one at a time, with the share of `proof` that the checker has read, in [0, 1], if the system tells it.
+  /// Called now and then, from any thread but one at a time, with the share of `proof` that the checker has read, in
+  /// [0, 1], if the system tells it.
   std::function<void(double share)> progress = {};
 };
 

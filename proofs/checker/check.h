@@ -187,7 +187,7 @@ class Check {
     return flat;
   }
 
-  /// The motion of the step before a part is compared too, so that parts which follow each other have the same positions
+  /// The motion of the step before a part is compared too, so that parts that follow each other have the same positions
   /// between them.
   void step(Reader c, std::uint64_t read) {
     const Head s = read_head(c, read);
@@ -277,9 +277,11 @@ class Check {
   std::optional<Tree> tree_;
   std::optional<Reader> new_tree_;  ///< that replaces it, not read yet
   Motion motion_;
-  std::uint64_t proof_steps_ = 0, trajectory_steps_ = 0;  ///< steps that the file knows of, and those of them in the trajectory
-  std::uint64_t checked_ = 0, proved_ = 0;
-  bool gaps_ = false;  ///< a witness was there, after which steps may be missing
+  std::uint64_t proof_steps_ = 0;       ///< up to the last step that was read of the proof
+  std::uint64_t trajectory_steps_ = 0;  ///< the same of the trajectory
+  std::uint64_t checked_ = 0;           ///< how many steps were looked at
+  std::uint64_t proved_ = 0;            ///< up to the last step that is proved before a witness
+  bool gaps_ = false;                   ///< a witness was there, after which steps may be missing
   std::array<double, 2> times_{};
   double proved_until_ = 0;
   bool flat_ = true;          ///< the proved steps are flat

@@ -47,7 +47,8 @@ class Shards : public testing::Test {
     std::vector<Position> points;
     std::vector<std::array<VertexId, 3>> faces;
     for (int i = 0; i < side * side; ++i) {
-      const double x = i % side, y = static_cast<double>(i / side);
+      const int row = i / side, column = i % side;
+      const double x = column, y = row;
       points.push_back({x, y, 0.25 * std::sin(0.5 * x + 0.25 * y + k) + lifted});
     }
     for (VertexId i = 0; i + side < side * side; ++i) {
