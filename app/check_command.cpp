@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <regex>
 
 #include <noli/errors.h>
 #include "app/bodies.h"
@@ -67,7 +68,7 @@ struct CheckArguments {
   std::vector<std::string> require;
   std::optional<fs::path> claim;
   bool verified = false;
-  std::string steps, shard;
+  std::optional<std::string> steps, shard;
   int threads = 0;
   FrameOrder order = FrameOrder::checked;
   FrameReading reading;
@@ -90,10 +91,11 @@ std::vector<std::string> asked_by(const CheckArguments& arguments) {
 std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   const ShardNumber shard = parse_shard(text);
   const std::vector<std::uint64_t> parts = parts_of_proof(proof, shard.of);
+  if (const auto reason = stop_asked()) throw Stopped(*reason, proof.string());
   if (parts.empty()) {
-    throw UsageError(
-        proof.string() +
-        ": has a witness, or is no file with a whole proof; expected it without --shard, which checks all");
+    throw UsageError(proof.string() +
+                     ": cannot be cut into parts, as it has a witness, is damaged, or is no regular file; expected no "
+                     "--shard: without it `noli check` says what is the matter");
   }
   if (parts.size() < shard.of) {
     const std::size_t steps = parts.size();
@@ -103,16 +105,30 @@ std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   return steps_of_part(parts, shard.number - 1);
 }
 
-/// Asks for the steps of --steps or --shard instead of all. The last of all steps that a claim or the log of a run asks
-/// for stays the last one.
+/// The steps of --steps. Throws UsageError for anything but A..B or A..
+std::string parse_steps(const std::string& text) {
+  static const std::regex form("([1-9][0-9]{0,8})\\.\\.([1-9][0-9]{0,8})?");
+  std::smatch match;
+  const bool has_form = text.size() < 32 && std::regex_match(text, match, form);
+  if (has_form && (!match[2].matched || std::stoull(match[1].str()) <= std::stoull(match[2].str()))) return text;
+  throw UsageError(
+      fmt::format("--steps {}: expected A..B with 1 <= A <= B, or A..; 5..5 is step 5 alone", on_one_line(text)));
+}
+
+/// Asks for the steps of --steps or --shard instead of all. To the end means at least as far as a claim or the log of a
+/// run asks for.
 void ask_for_part(const CheckArguments& arguments, const fs::path& proof, std::vector<std::string>& words) {
-  if (arguments.steps.empty() && arguments.shard.empty()) return;
+  if (!arguments.steps && !arguments.shard) return;
   if (asks(arguments.require, "steps")) {
-    throw UsageError("--require steps: says which steps, as --steps and --shard do; expected one of them");
+    throw UsageError("--require steps: --steps and --shard choose steps too; expected one of them");
   }
-  std::string steps = arguments.shard.empty() ? arguments.steps : steps_of_shard(arguments.shard, proof);
-  const std::uint64_t last = std::max<std::uint64_t>(asked_steps(words).value_or(0), steps_of_proof(proof));
-  if (steps.ends_with("..") && asks(words, "steps")) steps += std::to_string(last);
+  const std::string steps = arguments.steps ? parse_steps(*arguments.steps) : steps_of_shard(*arguments.shard, proof);
+  const std::uint64_t wanted = asked_steps(words).value_or(0), there = wanted > 0 ? steps_of_proof(proof) : 0;
+  if (steps.ends_with("..") && there < wanted) {
+    throw InputError(
+        proof.string(), "",
+        fmt::format("{} steps are asked for, and the proof has {}, or cannot be cut into parts", wanted, there));
+  }
   std::erase_if(words, [](const std::string& word) { return field_of(word) == "steps"; });
   words.push_back("steps=" + steps);
 }
@@ -130,7 +146,8 @@ CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
   return *std::move(verdict);
 }
 
-/// Of the ranks of a job, if all accept; nothing for those after the first. Each rank takes the next few of the parts.
+/// Of the ranks of a job, if all were asked the same and accept; nothing for those after the first. Each rank takes the
+/// next few of the parts.
 std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ranks& ranks) {
   const int threads = request.checkers > 0 ? request.checkers : ranks.threads();
   const std::vector<std::uint64_t> firsts = parts_of_check(request, threads * ranks.size());
@@ -138,12 +155,22 @@ std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ran
     return firsts.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks.size());
   };
   const auto own = words_of_parts(request, firsts, begin_of(ranks.rank()), begin_of(ranks.rank() + 1), threads);
+  Json question = Json::array();
+  for (const std::string& word : request.asked) question.push_back(on_one_line(word));
+  for (const fs::path& frame : request.trajectory) question.push_back(on_one_line(frame.string()));
   std::vector<std::string> words;
-  for (const std::string& text : ranks.gather(Json(own).dump())) {
-    for (std::string& part : Json::parse(text).get<std::vector<std::string>>()) words.push_back(std::move(part));
+  bool alike = true;
+  for (const std::string& text : ranks.gather(Json{{"question", question}, {"words", own}}.dump())) {
+    const Json of_rank = Json::parse(text);
+    alike = alike && of_rank["question"] == question;
+    for (const Json& part : of_rank["words"]) words.push_back(part);
   }
-  auto joined = joined_words(words, asked_steps(request.asked).value_or(0));
-  return joined ? std::optional(CheckerVerdict{0, *std::move(joined)}) : std::nullopt;
+  if (firsts.empty() || !ranks.is_first()) return std::nullopt;
+  auto joined = alike ? joined_words(words, asked_steps(request.asked).value_or(0)) : std::nullopt;
+  if (joined) return CheckerVerdict{0, *std::move(joined)};
+  tell_note(alike ? "not all ranks accept their part, so the first one checks the whole proof"
+                  : "not all ranks were asked about the same frames, so the first one checks the whole proof");
+  return std::nullopt;
 }
 
 /// Sets the bodies; all their files.

@@ -79,13 +79,17 @@ Answer check_answer(const Checked& checked) {
   const auto& [checker, proof, asked, verdict, notes] = checked;
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
-  Answer answer(check_json(checked), {"checker=checker/name", "version=checker/version"});
+  const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
+  std::vector<std::string> members = {"checker=checker/name", "version=checker/version"};
+  if (claim && claim->part) {
+    members.insert(members.end(), {"first=claim/part/first", "last=claim/part/last", "proof=claim/part/proof"});
+  }
+  Answer answer(check_json(checked), members);
   answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
   answer.text += notes_text(notes);
   answer.details = rest.starts_with("claim ") ? first_line(rest) + '\n' : "";
   std::string what = line.substr(std::min(line.find(": ") + 2, line.size()));
   constexpr std::string_view touches = "touches";
-  const auto claim = claim_of_words(verdict.words);
   const std::size_t at = what.find(touches);
   if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);

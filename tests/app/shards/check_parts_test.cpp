@@ -110,6 +110,10 @@ TEST_F(CheckedParts, AreShardsThatNameOneProof) {
     next = part["last"].get<std::uint64_t>() + 1;
     if (name.empty()) name = part["proof"];
     EXPECT_EQ(part["proof"], name);
+    const std::string line = check({"--shard", which, "--porcelain"}).out;
+    EXPECT_NE(line.find(" first=" + part["first"].dump() + " last=" + part["last"].dump() + " proof=" + name),
+              std::string::npos)
+        << line;
   }
   EXPECT_EQ(next, static_cast<std::uint64_t>(frames));
 }
@@ -151,7 +155,13 @@ TEST_F(CheckedParts, OfSomeStepsAreNamedInTheVerdict) {
   EXPECT_NE(some.verdict_line().find("nothing touches; steps 3..4"), std::string::npos) << some.out;
   EXPECT_EQ(check({"--steps", "7.."}).exit_code, 0);
   EXPECT_EQ(check({"--steps", "7..9"}).exit_code, 3);
-  EXPECT_EQ(check({"--steps", "3..x"}).exit_code, 3);
+  for (const char* const steps : {"3..x", "3", "", "..3", "3..2", "0..2", "3-4"}) {
+    const Process wrong = check({"--steps", steps});
+    EXPECT_EQ(wrong.exit_code, 3) << steps;
+    EXPECT_NE(wrong.err.find("expected A..B with 1 <= A <= B, or A.."), std::string::npos) << wrong.err;
+  }
+  EXPECT_EQ(check({"--shard", ""}).exit_code, 3);
+  EXPECT_EQ(check({"--shard", "1/2", "--time-limit", "1ms"}).exit_code, 2);
   EXPECT_EQ(check({"--shard", "3"}).exit_code, 3);
   const Process many = check({"--shard", "2/9"});
   EXPECT_EQ(many.exit_code, 3);

@@ -75,6 +75,22 @@ TEST_F(InRanks, AProofIsCheckedAsByOneProcess) {
   expect_same({}, 3);
 }
 
+/// A frame that only the first rank is asked about is not passed over.
+TEST_F(InRanks, OtherFramesOfARankAreNoticed) {
+  const Words waves = write_waves(9), more = write_waves(10);
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--proof", folder.path("one.noli")}, waves)).exit_code, 0);
+  const auto of_ranks = [](const Words& first, const Words& others) {
+    return joined(joined(first, {":", "-n", "2", NOLI_COMMAND}), others);
+  };
+  const Words ask = joined({"check", folder.path("one.noli")}, waves), ask_more = joined(ask, {more.back()});
+  const Process rejected = job(1, of_ranks(ask_more, ask)), accepted = job(1, of_ranks(ask, ask_more));
+  EXPECT_EQ(rejected.exit_code, 3) << rejected.out << rejected.err;
+  EXPECT_EQ(accepted.exit_code, 0) << accepted.out << accepted.err;
+  for (const Process* const process : {&rejected, &accepted}) {
+    EXPECT_NE(process->err.find("not all ranks were asked about the same frames"), std::string::npos) << process->err;
+  }
+}
+
 TEST_F(InRanks, WrongUsageEndsTheJob) {
   EXPECT_EQ(job(2, {"verify", folder.path("none.ply"), folder.path("nor.ply")}).exit_code, 3);
   const Process other = job(2, {"info", write_motion(2)[0]});
