@@ -64,7 +64,7 @@ class RunVerification : private Verification {
     look_end_ = look.end.value_or(0);
     reader_.look_for_expected();
     outcome_.ending = ending_of(run_, log_);
-    if (const auto note = note_of_lost_log(log_)) outcome_.notes.push_back(*note);
+    if (!live_) note_lost_log();
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
@@ -164,11 +164,18 @@ class RunVerification : private Verification {
   std::optional<RunWindow> next_behind_the_last() {
     log_ = read_log(run_);
     outcome_.ending = ending_of(run_, log_);
+    note_lost_log();
     reader_.expect(log_.known);
     reader_.look_again();
     auto window = next_committed();
     ended_ = !window;
     return window;
+  }
+
+  /// Of a run that is being written, the log may not have its first line yet.
+  void note_lost_log() {
+    const auto note = note_of_lost_log(log_);
+    if (note && std::ranges::find(outcome_.notes, *note) == outcome_.notes.end()) outcome_.notes.push_back(*note);
   }
 
   void set_claim() {

@@ -9,6 +9,7 @@
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
+#include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli {
@@ -22,7 +23,7 @@ bool asks(const std::vector<std::string>& words, const std::string& field) {
 void ask_for_all_windows(const std::filesystem::path& run, std::vector<std::string>& words,
                          std::vector<std::string>& notes) {
   const LogFacts log = read_log(run);
-  if (const auto note = note_of_lost_log(log)) notes.push_back(*note);
+  if (const auto note = note_of_lost_log(log); note && !is_locked(run)) notes.push_back(*note);
   std::optional<SeriesReader> reader;
   std::uint64_t windows = 0;
   try {

@@ -149,6 +149,19 @@ TEST_F(Writers, FollowingARunVerifiesItToItsEnd) {
   EXPECT_EQ(without_timing(json_of({"verify", run, "--follow"}, 0)), without_timing(alone)) << "nobody writes to it";
 }
 
+/// The writer has the folder before its log has a line.
+TEST_F(Writers, OnlyARunThatNobodyWritesHasLostItsLog) {
+  const std::string run = run_path("whole"), json = folder.path("result.json");
+  fs::resize_file(run + "/log.jsonl", 0);
+  const auto notes = [&] {
+    run_noli({"verify", run, "--json", json, "--force"});
+    return Json::parse(bytes_of(json))["notes"].dump();
+  };
+  EXPECT_NE(notes().find("has no log.jsonl"), std::string::npos);
+  const FolderLock lock(run);
+  EXPECT_EQ(notes().find("has no log.jsonl"), std::string::npos);
+}
+
 TEST_F(Writers, FollowingEndsAtTheTimeLimitAndWhenItIsInterrupted) {
   const FolderLock lock(run_path("whole"));
   const std::vector<std::string> follow = {"verify", run_path("whole"), "--follow"};
