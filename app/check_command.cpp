@@ -181,7 +181,7 @@ OrderedFrames ordered_bodies(CheckArguments& arguments) {
   return ordered;
 }
 
-/// The proof's file. Throws InputError and UsageError when it is none.
+/// The file of the proof. Throws InputError if it does not exist, UsageError if it is a folder.
 fs::path proof_of(const CheckArguments& arguments, bool folder) {
   fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
   if (!fs::exists(proof)) {

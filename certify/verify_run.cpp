@@ -13,11 +13,11 @@
 
 #include <noli/errors.h>
 #include <noli/sequence.h>
+#include "certify/decided_steps.h"
 #include "certify/groups.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
-#include "certify/shards/decided_steps.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "proofs/prover/chain.h"

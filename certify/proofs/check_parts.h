@@ -45,8 +45,8 @@ std::vector<std::string> words_of_parts(const CheckRequest& request, const std::
 /// Precondition: the last part was asked for with an open end, so that it comes to the end of the trajectory.
 std::optional<std::string> joined_words(const std::vector<std::string>& words, std::uint64_t least_steps);
 
-/// The verdict of request.checkers at once, if all accept; what it says is what one checker says. If there is none, one
-/// checker should look at all steps.
+/// Has request.checkers look at a part of the steps each, at the same time. Returns what one checker would say if all of
+/// them accept. Otherwise returns nothing, and one checker should look at all steps.
 /// Precondition: request.proof.
 std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request);
 

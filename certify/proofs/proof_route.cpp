@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "certify/decided_steps.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/claim.h"
-#include "certify/shards/decided_steps.h"
 #include "certify/stopwatch.h"
 #include "trajectory/text.h"
 
@@ -26,7 +26,7 @@ class NoSink : public Sink {
   void truncate(std::uint64_t /*size*/) override {}
 };
 
-/// A file that nobody needs after this process: it need not survive a loss of power.
+/// A file that only this process needs, so it is never synced to the disk.
 class ScratchFile : public FileSink {
  public:
   explicit ScratchFile(const fs::path& path) : FileSink(path, Open::create) {}

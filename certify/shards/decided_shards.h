@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/shards/decided_steps.h"
+#include "certify/decided_steps.h"
 #include "certify/shards/shard_file.h"
 #include "certify/shards/shard_folder.h"
 #include "proofs/prover/chain.h"

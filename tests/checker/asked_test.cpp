@@ -22,11 +22,6 @@ Proof meeting() {
   proof.tokens.clear();
   return proof;
 }
-/// A witness of vertex 0 of cell i against vertex 1 of cell j, at the beginning of step k.
-std::string at_begin(std::uint32_t i, std::uint32_t j, int k = 0, std::uint32_t q = 1) {
-  return raw(i) + raw(j) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(q) + poly({1}) + poly({-k, 1}) +
-         uint(0) + sint(k) + sint(k);
-}
 Proof refuted(Proof proof) {
   proof.witness = {at_begin(0, 1)};
   return proof;

@@ -120,11 +120,8 @@ TEST(Parts, DoNotOpenFramesFarBeforeThem) {
   const Folder folder;
   const std::string file = folder.write("proof", block_file("PROF", proof.groups()));
   const auto with_broken = [&](std::size_t broken, const char* steps) {
-    std::vector<std::string> paths;
-    for (std::size_t i = 0; i < proof.frames.size(); ++i) {
-      const std::string text = i == broken ? "v broken\n" : obj(proof.frames[i], proof.cells);
-      paths.push_back(folder.write("f" + std::to_string(i) + ".obj", text));
-    }
+    const auto paths = proof.write_frames(folder);
+    folder.write("f" + std::to_string(broken) + ".obj", "v broken\n");
     return verdict(file, paths, Fields{steps}).code;
   };
   EXPECT_EQ(with_broken(1, "steps=4.."), 0);
@@ -137,10 +134,7 @@ TEST(Parts, DoNotOpenFramesFarBeforeThem) {
 TEST(Parts, OfOneProofNameItAlike) {
   const Proof proof = four_steps();
   const Folder folder;
-  std::vector<std::string> paths;
-  for (std::size_t i = 0; i < proof.frames.size(); ++i) {
-    paths.push_back(folder.write("f" + std::to_string(i) + ".obj", obj(proof.frames[i], proof.cells)));
-  }
+  const auto paths = proof.write_frames(folder);
   const auto whole = [&](const Proof& p, const std::vector<std::string>& fields) {
     Check check(folder.write("proof", block_file("PROF", p.groups())), paths, Asked(fields));
     EXPECT_EQ(check.go(), std::nullopt);
@@ -156,20 +150,17 @@ TEST(Parts, OfOneProofNameItAlike) {
 TEST(Parts, HaveTheTimesOfTheirOwnSteps) {
   const Proof proof = four_steps();
   const Folder folder;
-  std::vector<std::string> paths;
-  for (std::size_t i = 0; i < proof.frames.size(); ++i) {
-    paths.push_back(folder.write("f" + std::to_string(i) + ".obj", obj(proof.frames[i], proof.cells)));
-  }
+  const auto paths = proof.write_frames(folder);
   Check check(folder.write("proof", block_file("PROF", proof.groups())), paths, Asked({"steps=2..3"}));
   EXPECT_EQ(check.go(), std::nullopt);
   EXPECT_EQ(check.times(), (std::array<double, 2>{1, 3}));
   EXPECT_EQ(check.steps(), "2..3");
 }
 
-/// A witness that the two vertices meet at the beginning of step k.
-std::string meet(int k) {
-  return raw(0u) + raw(1u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) + poly({-k, 1}) +
-         uint(0) + sint(k) + sint(k);
+/// A witness that vertices 0 and 1 meet in the middle of step k.
+std::string at_middle(int k) {
+  return raw(0u) + raw(1u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) +
+         poly({-2 * k - 1, 2}) + uint(1) + sint(2 * k + 1) + sint(2 * k + 1);
 }
 
 /// The vertices 0 and 1 meet in the second step and in the third; in the fourth they are apart.
@@ -178,7 +169,7 @@ Proof meeting_twice() {
   for (const double x : {4, 0, 0, 3, 3}) proof.frames.push_back({{0, 0, 0}, {x, 0, 0}});
   proof.frames[3][1][0] = 3;
   proof.tokens = {"", "", "", N + F + mx + F};
-  proof.witness = {meet(0), meet(1), meet(2), ""};
+  proof.witness = {at_begin(0, 1, 0), at_begin(0, 1, 1), at_begin(0, 1, 2), ""};
   proof.frames[0][1][0] = 0;
   return proof;
 }
@@ -198,13 +189,7 @@ TEST(Parts, OfFramesAtRestEndBeforeAWitnessOfMotion) {
   for (const std::size_t k : {0u, 1u, 2u}) proof.frames[k][1][0] = k == 2 ? -4 : 4;  // meets within step 2
   proof.frames[3][1][0] = proof.frames[4][1][0] = 4;
   proof.tokens = {N + F + mx + F, "", "", N + F + mx + F};
-  // 1 - 2 (t - 1) is the root 1.5 of 2 t - 3.
-  proof.witness = {"",
-                   raw(0u) + raw(1u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) +
-                       poly({-3, 2}) + uint(1) + sint(3) + sint(3),
-                   raw(0u) + raw(1u) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(1u) + poly({1}) +
-                       poly({-5, 2}) + uint(1) + sint(5) + sint(5),
-                   ""};
+  proof.witness = {"", at_middle(1), at_middle(2), ""};
   EXPECT_VERDICT(proof.asked({}), 1, "in step 2");
   EXPECT_EQ(proof.asked({"motion=rest", "steps=1..2"}).words, "; steps 1..1");
   EXPECT_EQ(proof.asked({"motion=rest", "steps=4.."}).words, "; steps 4..4");
@@ -269,7 +254,7 @@ TEST(Parts, OfFramesAtRest) {
 TEST(Parts, OfFramesInMotionAreRefutedByFramesAtRest) {
   Proof rest = meeting_twice();
   rest.claim.source = 1;
-  rest.witness = {"", "", meet(0)};  // frame 2, from 0: the end of step 2 and the beginning of step 3, from 1
+  rest.witness = {"", "", at_begin(0, 1, 0)};  // frame 2, from 0: the end of step 2 and the beginning of step 3, from 1
   rest.frames[0][1][0] = rest.frames[1][1][0] = 4;
   rest.tokens = {N + F + mx + F, N + F + mx + F};
   EXPECT_VERDICT(rest.asked({"steps=2..2"}), 1, "in step 3");

@@ -179,6 +179,12 @@ struct StepFields {
   std::string encode() const { return raw(number) + raw(t0) + raw(t1) + raw(p) + raw(q) + bytes({kind}) + hash; }
 };
 
+/// A witness of vertex 0 of cell i against vertex 1 of cell j, at the beginning of step k.
+inline std::string at_begin(std::uint32_t i, std::uint32_t j, int k = 0, std::uint32_t q = 1) {
+  return raw(i) + raw(j) + bytes({1}) + raw(0u) + poly({1}) + bytes({1}) + raw(q) + poly({1}) + poly({-k, 1}) +
+         uint(0) + sint(k) + sint(k);
+}
+
 using Points = std::vector<std::array<double, 3>>;
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
@@ -267,10 +273,14 @@ struct Proof {
   Verdict check() const { return check(block_file("PROF", groups())); }
   Verdict check(const std::string& file) const {
     const Folder folder;
+    return verdict(folder.write("proof", file), write_frames(folder), fields);
+  }
+  /// Returns the names of their files.
+  std::vector<std::string> write_frames(const Folder& folder) const {
     std::vector<std::string> paths;
     for (std::size_t i = 0; i < frames.size(); ++i)
       paths.push_back(folder.write("f" + std::to_string(i) + ".obj", obj(frames[i], cells)));
-    return verdict(folder.write("proof", file), paths, fields);
+    return paths;
   }
   /// The verdict if these fields are required.
   Verdict asked(const Fields& of_it) const {
