@@ -197,9 +197,30 @@ class Certifier:
             for x in solver:
                 certifier.step(x)          # raises noli.Contact with .time and .pairs (pair, vertices)
 
-    After a Contact the certifier is where it was, so that another, shorter step can be tried. ``x`` is where it is,
-    ``steps`` how many were free. Positions (vertices, 3) are decided in three dimensions unless ``dimension`` is 2. Raises InputError; Contact for an x0 that touches
-    itself.
+    After a Contact the certifier is where it was, so that another, shorter step can be tried.
+
+    Parameters
+    ----------
+    mesh : CollisionMesh, or (n, 3) faces
+    x0 : (vertices, 2 or 3)
+        Where the mesh begins.
+    dimension : 2 or 3, optional
+        2 ignores z. Default: as many as ``x0`` has coordinates.
+    threads, max_reports
+        As for ``noli.verify``.
+
+    Attributes
+    ----------
+    x : (vertices, 2 or 3)
+        Where the mesh is.
+    steps : int
+        How many steps were free.
+
+    Raises
+    ------
+    InputError, UsageError
+    Contact
+        If the mesh intersects itself at ``x0``.
     """
 
     def __init__(
@@ -208,7 +229,7 @@ class Certifier:
         self.x, self.mesh = positions(x0, "x0").copy(), as_mesh(mesh)
         self.mesh._require_vertices(len(self.x))
         self.steps = 0
-        self._dimension = dimension or self.x.shape[1]  # a step may leave the plane of those before it
+        self._dimension = self.x.shape[1] if dimension is None else dimension  # a step may leave the plane of those before it
         self._threads, self._reports = threads, max_reports
         found = self_intersections(self.x, self.mesh, dimension=self._dimension, threads=threads, max_reports=max_reports)
         if found.count:

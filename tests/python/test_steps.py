@@ -163,6 +163,9 @@ class Steps(TestCase):
         for wrong in ({"ring": -1}, {"ring": 1000}, {"threads": -1}, {"dimension": 5}):
             with self.assertRaises(noli.UsageError):
                 noli.largest_min_distance(self.V[0], self.mesh, **wrong)
+        for wrong in ({"dimension": 0}, {"threads": -1}):
+            with self.assertRaises(noli.UsageError):
+                noli.Certifier(self.mesh, self.V[0], **wrong)
 
     def test_certifier_keeps_its_own_positions(self):
         x = self.V[0].copy()
