@@ -4,8 +4,10 @@
 
     docs_reference.py NOLI FOLDER
 
-FOLDER gets commands.md (each `--help`), scene.md and results.md (schemas/) and cpp.md (include/noli, for Breathe).
+FOLDER gets commands.md (each `--help`), scene.md and results.md (schemas/), cpp.md (include/noli, for Breathe) and python.md (the
+docstrings of python/noli).
 """
+import ast
 import json
 import pathlib
 import re
@@ -186,6 +188,73 @@ def cpp():
     return "\n".join(parts)
 
 
+def signature(function):
+    """As it is called: an argument a line if there are many."""
+    arguments = [ast.unparse(argument) for argument in _with_defaults(function.args) if argument.args[0].arg != "self"]
+    result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
+    line = f"{function.name}({', '.join(arguments)}){result}"
+    return line if len(line) <= 100 else f"{function.name}(\n    " + ",\n    ".join(arguments) + f",\n){result}"
+
+
+def _with_defaults(arguments):
+    """The arguments one by one, each with its annotation and default; a bare star as it is."""
+    defaults = [None] * (len(arguments.args) - len(arguments.defaults)) + arguments.defaults
+    for argument, default in zip(arguments.args, defaults):
+        yield ast.arguments([], [argument], None, [], [], None, [default] if default else [])
+    if arguments.kwonlyargs:
+        yield ast.arguments([], [ast.arg("*")], None, [], [], None, [])
+    for argument, default in zip(arguments.kwonlyargs, arguments.kw_defaults):
+        yield ast.arguments([], [argument], None, [], [], None, [default] if default else [])
+
+
+def described(node, text):
+    """Code, and below it the docstring, if there is one."""
+    words = ast.get_docstring(node)
+    return f"```python\n{text}\n```\n" + (f"```text\n{words}\n```\n" if words else "")
+
+
+def head_of(node):
+    """Of a class that people make, what makes it; of an exception, what it is."""
+    for member in node.body:
+        if getattr(member, "name", None) == "__init__" and "Parameters\n" in (ast.get_docstring(node) or ""):
+            return "noli." + signature(member).replace("__init__", node.name).removesuffix(" -> None")
+    bases = ", ".join(map(ast.unparse, node.bases))
+    return f"class {node.name}({bases})" if bases else f"class {node.name}"
+
+
+def python_class(node):
+    parts = [described(node, head_of(node))]
+    for member in node.body:
+        if not isinstance(member, ast.FunctionDef) or member.name.startswith("_") or ast.get_docstring(member) is None:
+            continue
+        is_property = any(ast.unparse(one) == "property" for one in member.decorator_list)
+        type_ = f": {ast.unparse(member.returns)}" if member.returns else ""
+        parts.append(described(member, f"{node.name}.{member.name}{type_}" if is_property else f"{node.name}.{signature(member)}"))
+    return "\n".join(parts)
+
+
+def python():
+    """What `import noli` offers, in the order of its modules."""
+    package = ROOT / "python/noli"
+    public, parts = [], []
+    for line in ast.parse((package / "__init__.py").read_text(encoding="utf-8")).body:
+        if isinstance(line, ast.Assign) and ast.unparse(line.targets[0]) == "__all__":
+            public = ast.literal_eval(line.value)
+    for path in sorted(package.glob("_*.py")):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if getattr(node, "name", None) not in public:
+                continue
+            text = python_class(node) if isinstance(node, ast.ClassDef) else described(node, "noli." + signature(node))
+            parts.append((node.name, f"## {node.name}\n\n{text}"))
+    missing = set(public) - {name for name, _ in parts}
+    if missing or not parts:
+        sys.exit(f"docs_reference.py: python/noli has no {sorted(missing)}; expected all of noli.__all__")
+    types = ast.parse((package / "_types.py").read_text(encoding="utf-8")).body
+    names = "\n".join(ast.unparse(line) for line in types if isinstance(line, ast.Assign))
+    parts.sort(key=lambda part: part[0].lower())
+    return "\n".join(text for _, text in parts) + f"\n## Types\n\n```python\n{names}\n```\n"
+
+
 def main():
     noli, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
@@ -194,6 +263,7 @@ def main():
         "scene": scene(),
         "results": results(),
         "cpp": cpp(),
+        "python": python(),
     }.items():
         (folder / f"{name}.md").write_text(text, encoding="utf-8")
 
