@@ -11,9 +11,9 @@ from typing import NoReturn, Optional, Sequence
 from . import _core
 from ._errors import InputError, NotProved, UsageError
 from ._frames import bodies_in_files, file_names, given_frames
-from ._options import ORDERS, choice, refuse_options_of_files, words
-from ._types import Bodies, Claim, Frames, Json, Mesh, Names, Path
-from ._words import no_truth
+from ._options import ORDERS, choice, refuse_options_of_files, threads_of, words
+from ._types import Bodies, Claim, Frames, Json, Mesh, Names, Path, Progress
+from ._words import no_truth, progress_of
 
 
 class Checked:
@@ -73,6 +73,8 @@ def check(
     verified: bool = False,
     order: str = "checked",
     obstacles: Optional[Bodies] = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Checked:
     """Has a separate program check a proof about these frames, or about a run.
 
@@ -83,13 +85,17 @@ def check(
     frames, mesh, order, obstacles
         As for ``noli.verify``. A generator can be read once.
     require : list of str
-        Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``). Default: frames in
-        motion, all steps, every cell, no merged vertices, no least distance, and nothing left out except what the mesh
-        ignores.
+        Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``); "steps=40..60"
+        looks at these steps alone. Default: frames in motion, all steps, every cell, no merged vertices, no least
+        distance, and nothing left out except what the mesh ignores.
     claim : path or dict
         All fields at once: ``Result.claim``, or the file of ``noli verify --claim-out``.
     verified : bool
         Asks noli_check_verified, whose soundness is proved in Coq.
+    threads : int
+        So many checkers share the steps of a proof about frames in files; 0: as many as there are processors.
+    progress : callable, True or None
+        As for ``noli.verify``.
 
     Returns
     -------
@@ -109,14 +115,19 @@ def check(
         raise InputError(f"{proof}: does not exist; expected a proof")
     asked = words(require)
     asked += [word for word in _fields(claim) if word.split("=")[0] not in {own.split("=")[0] for own in asked}]
-    options: Json = {"order": choice(order, "order", ORDERS), "bodies": bodies_in_files(frames, obstacles)}
+    options: Json = {
+        "order": choice(order, "order", ORDERS),
+        "bodies": bodies_in_files(frames, obstacles),
+        "threads": threads_of(threads),
+    }
     names = file_names(frames)
     if names is None:
         refuse_options_of_files({"order": order})
     elif mesh is not None:
         raise UsageError("mesh: frames in files have their own; expected none")
     given = given_frames(frames, mesh) if names is None else names
-    checked = Checked(_core.Check(proof, given, asked, bool(verified), options))
+    with progress_of(progress) as told:
+        checked = Checked(_core.Check(proof, given, asked, bool(verified), options, told))
     fault = "rejected: the command line, "
     if checked.words.startswith(fault):
         raise UsageError(checked.words.splitlines()[0][len(fault) :])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a result shows itself in a notebook: its verdict, a table of the steps that touch, and a page to turn."""
+"""How results show themselves in a notebook: the verdict, a table of the steps that count, and a page to turn."""
 
 from __future__ import annotations
 
@@ -10,46 +10,56 @@ import tempfile
 
 from ._errors import NoliError
 
-COLOURS = {"proved": "#1a7f37", "no_contact": "#1a7f37", "contact": "#b3261e", "too_near": "#b3261e"}
+GOOD, BAD, OPEN = "#1a7f37", "#b3261e", "#8a6d00"
+COLOURS = {"proved": GOOD, "no_contact": GOOD, "contact": BAD, "too_near": BAD, "cannot_be": BAD}
 MOST_ROWS = 10
 
 
 def html_of(result):
     """A fragment of HTML that fetches nothing."""
-    lines = result.text().splitlines()
-    colour = COLOURS.get(result.verdict, "#8a6d00")
-    parts = [f'<p style="color:{colour};font-weight:bold;white-space:pre-wrap">{html.escape(lines[-1])}</p>']
-    parts += [f"<p>{html.escape(line)}</p>" for line in lines[:-1] if line.startswith(("Looked at", "Note"))]
-    parts.append(_table(result.contacts))
-    parts.append(_view(result))
+    columns = ("step", "time", "kind", "pair", "vertices")
+    rows = [
+        (row["step"], f"{row['time']:.6g}", row["kind"], row["pair"], " ".join(str(v) for v in row["vertices"] if v >= 0))
+        for row in result.contacts[:MOST_ROWS]
+    ]
+    return _join(_words(result), _table(columns, rows, len(result.contacts)), _view(result))
+
+
+def html_of_repair(repaired, *, with_page):
+    """The same for a motion that was mended. ``with_page``: it can be read again."""
+    changed = repaired.to_json()["changed"]
+    columns = ("step", "moved", "largest", "rms", "inserted")
+    rows = [
+        (row["step"], row["moved"], f"{row['largest']:.4g}", f"{row['rms']:.4g}", row["inserted"])
+        for row in changed[:MOST_ROWS]
+    ]
+    return _join(_words(repaired), _table(columns, rows, len(changed)), _view(repaired) if with_page else "")
+
+
+def _join(*parts):
     return "\n".join(part for part in parts if part)
 
 
-def _table(contacts):
-    if not len(contacts):
+def _words(result):
+    """The verdict, then what was looked at, and notes."""
+    lines = result.text().splitlines()
+    colour = COLOURS.get(result.verdict, OPEN)
+    parts = [f'<p style="color:{colour};font-weight:bold;white-space:pre-wrap">{html.escape(lines[-1])}</p>']
+    parts += [f"<p>{html.escape(line)}</p>" for line in lines[:-1] if line.startswith(("Looked at", "Note"))]
+    return _join(*parts)
+
+
+def _table(columns, rows, total):
+    if not rows:
         return ""
-    head = "".join(f"<th>{name}</th>" for name in ("step", "time", "kind", "pair", "vertices"))
-    rows = [
-        "<tr>"
-        + "".join(
-            f"<td>{value}</td>"
-            for value in (
-                row["step"],
-                f"{row['time']:.6g}",
-                row["kind"],
-                row["pair"],
-                " ".join(str(v) for v in row["vertices"] if v >= 0),
-            )
-        )
-        + "</tr>"
-        for row in contacts[:MOST_ROWS]
-    ]
-    more = f"<p>and {len(contacts) - MOST_ROWS} more</p>" if len(contacts) > MOST_ROWS else ""
-    return f"<table><tr>{head}</tr>{''.join(rows)}</table>{more}"
+    head = "".join(f"<th>{name}</th>" for name in columns)
+    body = "".join("<tr>" + "".join(f"<td>{value}</td>" for value in row) + "</tr>" for row in rows)
+    more = f"<p>and {total - len(rows)} more</p>" if total > len(rows) else ""
+    return f"<table><tr>{head}</tr>{body}</table>{more}"
 
 
 def _view(result):
-    """The page of ``Result.report`` in a frame; nothing where the motion cannot be read again."""
+    """The page of ``result.report`` in a frame; nothing where the motion cannot be read again."""
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "result.html")
         try:

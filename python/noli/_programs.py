@@ -20,8 +20,9 @@ def find():
     return pathlib.Path(found).parent if found else None
 
 
-# Threads that are still at work would be torn out of it.
+# Threads that are still at work would be torn out of it. The child of a fork has none of its parent's.
 atexit.register(_core.end_all_work)
+os.register_at_fork(after_in_child=_core.forget_all_work)
 
 folder = find()
 if folder is not None:

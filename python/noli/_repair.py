@@ -70,6 +70,16 @@ class Repaired:
             raise NotProved(self.text().splitlines()[-1], self)
         return self
 
+    def report(self, file: Path, *, title: Optional[str] = None, force: bool = False) -> None:
+        """Writes a page for a browser: the repaired motion over the given one, and what was changed.
+
+        Needs ``output``, whose files it shows. Frames in memory have to be as they were.
+        """
+        if not self._kept:
+            raise UsageError("report: shows the frames in files; pass output= to noli.repair")
+        require_new(file, force)
+        self._repair.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
+
     def text(self) -> str:
         """What ``noli repair`` prints."""
         text = self._repair.text()
@@ -80,6 +90,11 @@ class Repaired:
 
     def __repr__(self):
         return f"<noli.Repaired: {self.text().splitlines()[-1]}>"
+
+    def _repr_html_(self) -> str:
+        from ._notebook import html_of_repair
+
+        return html_of_repair(self, with_page=self._kept)
 
 
 def repair(

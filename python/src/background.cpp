@@ -125,10 +125,13 @@ struct AllWork {
   bool ending = false;
 };
 
-AllWork& all_work() {
-  static AllWork& work = *new AllWork;  // threads may outlive what is static
+/// Never deleted: threads may outlive what is static.
+AllWork*& all_work_there() {
+  static AllWork* work = new AllWork;
   return work;
 }
+
+AllWork& all_work() { return *all_work_there(); }
 
 }  // namespace
 
@@ -154,6 +157,8 @@ void end_all_work() {
   for (std::atomic<bool>* const stop : all.stops) *stop = true;
   all.changed.wait(lock, [&] { return all.stops.empty(); });
 }
+
+void forget_all_work() { all_work_there() = new AllWork; }
 
 void in_background(const std::function<void(Background&)>& work) {
   std::atomic<bool> stop = false;

@@ -91,6 +91,9 @@ class Working {
 /// Stops all work, waits until it has ended, and refuses more: for the interpreter's end.
 void end_all_work();
 
+/// For the child of a fork: work of the parent's other threads goes on in the parent alone.
+void forget_all_work();
+
 /// Does the work, and returns when it has ended. Throws what a call or a signal raised, else what the work threw.
 /// Precondition: this thread has the interpreter's lock.
 void in_background(const std::function<void(Background&)>& work);

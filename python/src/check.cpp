@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,7 +35,7 @@ namespace fs = std::filesystem;
 class Check {
  public:
   Check(fs::path proof, const py::object& frames, std::vector<std::string> asked, bool verified,
-        const py::dict& options)
+        const py::dict& options, const py::object& progress)
       : which_(verified ? Checker::verified : Checker::plain) {
     checked_.proof = std::move(proof);
     checked_.asked = std::move(asked);
@@ -43,9 +46,10 @@ class Check {
       bodies_ = bodies_in_files(options, checked_.notes);
       name_files(frames.cast<std::vector<fs::path>>(), order_of(options));
     }
+    put(options, "threads", checkers_);
     in_background([&](Background& background) {
       if (given_) given_->call_through(&background);
-      ask(background);
+      ask(background, progress_to(progress, background));
     });
   }
 
@@ -82,12 +86,14 @@ class Check {
     }
   }
 
-  void ask(Background& background) {
-    const CheckRequest request{.checker = which_,
-                               .proof = checked_.proof,
-                               .trajectory = trajectory_for_checker(files_),
-                               .asked = checked_.asked,
-                               .stop = background.stop()};
+  void ask(Background& background, const std::function<void(std::string_view, double)>& progress) {
+    CheckRequest request{.checker = which_,
+                         .proof = checked_.proof,
+                         .trajectory = trajectory_for_checker(files_),
+                         .asked = checked_.asked,
+                         .stop = background.stop(),
+                         .checkers = checkers_};
+    if (progress) request.progress = [&progress](double share) { progress("check", share); };
     if (!given_ && bodies_.empty() && checkers_read(request.trajectory)) {
       checked_.verdict = check_proof(request);
     } else {
@@ -104,6 +110,7 @@ class Check {
   }
 
   Checker which_;
+  int checkers_ = 0;
   std::vector<fs::path> files_;
   std::vector<BodyFrames> bodies_;
   std::optional<Frames> given_;
@@ -114,7 +121,7 @@ class Check {
 
 void bind_check(py::module_& core) {
   py::class_<Check>(core, "Check")
-      .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool, const py::dict&>())
+      .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool, const py::dict&, const py::object&>())
       .def("json", &Check::json)
       .def("text", &Check::text);
   core.def("read_claim_file", &read_claim_file);

@@ -11,6 +11,7 @@
 #include <malloc.h>
 #endif
 
+#include <noli/errors.h>
 #include "python/src/arrays.h"
 #include "trajectory/write_file.h"
 
@@ -69,6 +70,11 @@ Frames::Frames(py::object given) : background_(std::make_shared<Background*>(nul
     frames.reset();
     given.release().dec_ref();
   });
+}
+
+void Frames::read_again_through(Background* background) {
+  if (!given_->again) throw UsageError("the frames came from a generator, which is spent; expected an array or a list");
+  call_through(background);
 }
 
 Mesh mesh_of(const py::object& mesh, std::size_t vertex_count) {

@@ -22,6 +22,8 @@ class Frames {
 
   const std::shared_ptr<const GivenFrames>& given() const { return given_; }
   void call_through(Background* background) { *background_ = background; }
+  /// The same for frames that were read before. Throws UsageError if a generator made them.
+  void read_again_through(Background* background);
 
  private:
   std::shared_ptr<Background*> background_;

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, core) {
   core.attr("commit") = noli::version_commit();
   core.def("keep_programs_in", &noli::keep_programs_in);
   core.def("end_all_work", &end_all_work);
+  core.def("forget_all_work", &forget_all_work);
   bind_errors(core);
   bind_verify(core);
   bind_check(core);

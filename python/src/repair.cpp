@@ -14,7 +14,9 @@
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
+#include "python/src/pages.h"
 #include "report/documents.h"
+#include "report/page/report_repair.h"
 #include "report/repair_report.h"
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/frame_names.h"
@@ -54,10 +56,9 @@ class Repair {
     put_options(options, request_);
     request_.pattern = std::move(pattern);
     std::shared_ptr<const IgnoredGroups> ignored;
-    std::optional<Frames> given;
     if (py::hasattr(frames, "vertices")) {
-      given.emplace(frames);
-      ignored = ignored_groups_of(mesh, given->given()->mesh.vertex_count, false);
+      given_.emplace(frames);
+      ignored = ignored_groups_of(mesh, given_->given()->mesh.vertex_count, false);
       if (ignored) request_.ignore = ignored->file;
     } else {
       request_.order = order_of(options);
@@ -68,16 +69,15 @@ class Repair {
     }
     in_background([&](Background& background) {
       const ScratchFolder folder;
-      if (given) {
-        given->call_through(&background);
-        request_.frames = {folder.path() / "frames.blocks"};
-        write_frames(*given, request_.frames[0]);
+      if (given_) {
+        given_->call_through(&background);
+        request_.frames = {write_given_frames(folder)};
       }
       request_.stop = background.stop();
       request_.progress = progress_to(progress, background);
       outcome_ = run_repair(request_);
       for (FrameFacts& facts : outcome_.inputs) {
-        if (given) facts.file = "frames";
+        if (given_) facts.file = "frames";
       }
     });
     request_.stop = nullptr;
@@ -87,10 +87,26 @@ class Repair {
   std::string json() const { return to_text(report::document("repair", report::repair_json(request_, outcome_))); }
   std::string text() const { return text_of(report::repair_answer(request_, outcome_)); }
 
+  /// A page with both motions, as `noli report` makes it of a result with the name `title`. All frames have to be as
+  /// they were.
+  void report(const fs::path& file, const std::string& title) {
+    in_background([&](Background& background) {
+      const ScratchFolder folder;
+      Json result = Json::parse(json());
+      if (given_) {
+        given_->read_again_through(&background);
+        result["inputs"][0]["file"] = write_given_frames(folder).string();
+      }
+      write_page(file, title, [&](report::ReportPage& page) { report::report_repair(result, title, {}, page); });
+    });
+  }
+
  private:
-  static void write_frames(const Frames& given, const fs::path& file) {
+  /// Frames in memory as a file, for as long as the folder is there.
+  fs::path write_given_frames(const ScratchFolder& folder) const {
+    fs::path file = folder.path() / "frames.blocks";
     FrameReading reading;
-    reading.given = given.given();
+    reading.given = given_->given();
     const auto source = open_all_frames({"frames"}, reading);
     std::optional<FramesWriter> writer;
     FrameSequence sequence(*source, Motion::constant);
@@ -101,10 +117,12 @@ class Repair {
       writer->append(sequence.x_t0());
     }
     if (writer) writer->finish();
+    return file;
   }
 
   RepairRequest request_;
   RepairOutcome outcome_;
+  std::optional<Frames> given_;
 };
 
 /// (positions of each frame, faces, edges, points) of frames in files.
@@ -132,6 +150,7 @@ void bind_repair(py::module_& core) {
   py::class_<Repair>(core, "Repair")
       .def(py::init<const py::object&, const py::object&, std::string, const py::dict&, const py::object&>())
       .def("json", &Repair::json)
+      .def("report", &Repair::report)
       .def("text", &Repair::text);
   core.def("read_frames", &read_frames);
 }

@@ -21,15 +21,14 @@
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
+#include "python/src/pages.h"
 #include "report/documents.h"
 #include "report/figures/contact_export.h"
 #include "report/page/report_page.h"
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
-#include "report/page/report_verdict.h"
 #include "report/verify_report.h"
 #include "trajectory/formats/frame_names.h"
-#include "trajectory/write_file.h"
 
 namespace noli::python {
 namespace {
@@ -136,8 +135,8 @@ class Outcome {
   void report(const std::filesystem::path& file, const std::string& title) {
     const auto alone = one_at_a_time_.enter();
     in_background([&](Background& background) {
-      read_again_through(background);
-      replace_file(file, page(title));
+      if (given_) given_->read_again_through(&background);
+      write_page(file, title, [this](report::ReportPage& page) { fill(page); });
     });
   }
 
@@ -169,20 +168,11 @@ class Outcome {
   }
 
  private:
-  /// For frames in memory. Throws UsageError for those that cannot be read again.
-  void read_again_through(Background& background) {
-    if (!given_) return;
-    if (!given_->given()->again) {
-      throw UsageError("the frames came from a generator, which is spent; expected an array or a list");
-    }
-    given_->call_through(&background);
-  }
-
   report::ShownContact contact_shown(std::size_t number) {
     const auto alone = one_at_a_time_.enter();
     std::optional<report::ShownContact> shown;
     in_background([&](Background& background) {
-      read_again_through(background);
+      if (given_) given_->read_again_through(&background);
       shown = report::contact_in(Json::parse(json()), given_ ? given_->given() : nullptr, number);
     });
     return *std::move(shown);
@@ -213,11 +203,7 @@ class Outcome {
     request_.progress = {};
   }
 
-  std::string page(const std::string& title) const {
-    if (!report::has_report_page())
-      throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
-    report::ReportPage page;
-    page.page = report::empty_page();
+  void fill(report::ReportPage& page) const {
     if (request_.run) {
       report::report_run(request_.frames[0], {}, page);
     } else {
@@ -227,8 +213,6 @@ class Outcome {
       require_same(frames->take_facts());
     }
     report::put_verdict(Json::parse(json()), "result", page);
-    page.page["title"] = title;
-    return report::report_html(page);
   }
 
   void require_same(const std::vector<FrameFacts>& shown) const {

@@ -152,6 +152,28 @@ class Process(TestCase):
             self.assertEqual(done.returncode, 0, call + done.stderr)
             self.assertNotIn("terminate", done.stderr)
 
+    def test_the_child_of_a_fork_works_and_ends(self):
+        """Also when another thread of its parent is at work."""
+        code = f"""
+            import os, sys, threading, time
+            sys.path[:0] = {sys.path!r}
+            import noli
+            from support import falling_sheet
+            V, F, _ = falling_sheet(100, 30, 0.01)
+            small, faces, _ = falling_sheet(4)
+            threading.Thread(target=lambda: noli.verify(V, F, threads=1, check=False), daemon=True).start()
+            time.sleep(0.2)
+            if os.fork() == 0:
+                assert noli.verify(small, faces, threads=1).verdict == "contact"
+                assert noli.verify(small[:4], faces, threads=1).verdict == "proved"
+                sys.exit(7)
+            assert os.waitstatus_to_exitcode(os.wait()[1]) == 7
+        """
+        done = subprocess.run(
+            [sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False, timeout=60
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_a_signal_handler_may_close_a_simulation(self):
         simulation = noli.simulate(ROOT / "scenes" / "swinging_cloth.json", self.folder / "run")
         before = signal.signal(signal.SIGALRM, lambda *_: simulation.close())

@@ -57,6 +57,36 @@ class Repair(TestCase):
         again = noli.repair(self.V, self.mesh, output=pattern, force=True)
         self.assertTrue(np.array_equal(again.frames, found.frames))
 
+    def test_report(self):
+        found = noli.repair(self.V, self.mesh, output=self.folder / "out" / "f%03d.ply")
+        try:
+            found.report(self.folder / "page.html", title="two sheets")
+        except noli.UsageError as error:
+            self.skipTest(str(error))
+        page = (self.folder / "page.html").read_text(encoding="utf-8")
+        self.assertIn("two sheets", page)
+        self.assertIn("How far vertices end from where they were given", page)
+        self.assertIn("<iframe", found._repr_html_())
+        with self.assertRaisesRegex(noli.UsageError, "exists already"):
+            found.report(self.folder / "page.html")
+        with self.assertRaisesRegex(noli.UsageError, "output="):
+            noli.repair(self.V, self.mesh).report(self.folder / "other.html")
+        spent = noli.repair(iter(self.V), self.mesh, output=self.folder / "spent" / "f%03d.ply")
+        with self.assertRaisesRegex(noli.UsageError, "generator"):
+            spent.report(self.folder / "other.html")
+        self.V[2, 3, 1] += 1e-9
+        with self.assertRaisesRegex(noli.InputError, "other frames"):
+            found.report(self.folder / "other.html")
+        self.assertFalse((self.folder / "other.html").exists())
+
+    def test_shows_itself(self):
+        page = noli.repair(self.V, self.mesh)._repr_html_()
+        self.assertIn("PROVED", page)
+        self.assertIn("<td>4</td><td>128</td><td>0.1544</td>", page)
+        self.assertNotIn("<td>3</td>", page.split("</tr>")[1])
+        self.assertNotIn("<iframe", page)
+        self.assertNotIn("<table", noli.repair(self.V[:4], self.mesh)._repr_html_())
+
     def test_resume(self):
         pattern = self.folder / "f%03d.ply"
         whole = noli.repair(self.V, self.mesh, output=pattern)

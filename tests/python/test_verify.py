@@ -166,6 +166,31 @@ class Verify(TestCase):
             noli.check(proof, self.V[:4], mesh, require=["nonsense=1"])
         self.assertIsInstance(noli.check(proof, self.V[:4], mesh).to_json()["claim"], dict)
 
+    def test_parts_of_a_proof(self):
+        V, F, _ = falling_sheet(60, 40, 0.02)
+        proof, names = self.folder / "long.noli", []
+        for k, x in enumerate(V):
+            names.append(self.folder / f"f{k:02}.obj")
+            rows = [f"v {a!r} {b!r} {c!r}\n" for a, b, c in x.tolist()] + [f"f {a} {b} {c}\n" for a, b, c in (F + 1).tolist()]
+            names[-1].write_text("".join(rows))
+        noli.verify(names, proof=proof, keep_going=True).raise_unless_proved()
+        self.assertGreater(proof.stat().st_size, 4 << 20)  # worth several checkers
+        shares = []
+        several = noli.check(proof, names, threads=4, progress=lambda work, share: shares.append((work, share)))
+        self.assertEqual(several.verdict, "accepted")
+        self.assertEqual(several.to_json(), noli.check(proof, names, threads=1).to_json())
+        self.assertEqual({work for work, _ in shares}, {"check"})
+        self.assertTrue(all(0 <= share <= 1 for _, share in shares))
+        part = noli.check(proof, names, require=["steps=3..5"])
+        self.assertEqual(part.verdict, "accepted")
+        self.assertEqual(part.claim["part"]["first"], 3)
+        self.assertEqual(noli.check(proof, names, require=["steps=39..40"]).verdict, "rejected")
+        # In memory the numbers are the same.
+        self.assertEqual(noli.check(proof, V, F).verdict, "accepted")
+        V[7, 3, 2] -= 0.5
+        self.assertEqual(noli.check(proof, V, F).verdict, "rejected")
+        self.assertEqual(noli.check(proof, V, F, require=["steps=1..5"]).verdict, "accepted")
+
     def test_what_the_mesh_ignores_may_be_left_out_of_a_proof(self):
         proof = self.folder / "ignored.noli"
         mesh = noli.CollisionMesh(self.F, bodies=self.bodies, ignore=[("floor", "sheet")])
