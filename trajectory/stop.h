@@ -3,13 +3,16 @@
 // The request to stop this process, from the user (Ctrl-C) or a time limit.
 //
 // A program makes the request, from a signal handler or a timer. Long work checks for it at least ten times a second,
-// and throws Stopped. A check costs one load, so inner loops may check in each iteration.
+// and throws Stopped. A check costs two loads, so inner loops may check in each iteration.
+//
+// Where several pieces of work go on in one process, each has a request of its own (StopOfThread).
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <noli/errors.h>
 
@@ -17,6 +20,7 @@ namespace noli {
 
 namespace stop_detail {
 inline std::atomic<std::uint8_t> asked{0};
+inline constinit thread_local const std::atomic<bool>* of_thread = nullptr;
 static_assert(std::atomic<std::uint8_t>::is_always_lock_free, "a signal handler writes it");
 [[noreturn]] void throw_stopped();
 }  // namespace stop_detail
@@ -29,20 +33,35 @@ inline void ask_to_stop(StopReason reason) noexcept {
 /// Takes all requests back; for tests.
 inline void forget_stops() noexcept { stop_detail::asked.store(0, std::memory_order_relaxed); }
 
-/// Whether, and why, the process was asked to stop. The user comes before the time limit.
+/// While it exists, `stop` stops what this thread does, as Ctrl-C would: also while it waits for a pipe.
+class StopOfThread {
+ public:
+  explicit StopOfThread(const std::atomic<bool>& stop) noexcept
+      : outer_(std::exchange(stop_detail::of_thread, &stop)) {}
+  ~StopOfThread() { stop_detail::of_thread = outer_; }
+  StopOfThread(const StopOfThread&) = delete;
+  StopOfThread& operator=(const StopOfThread&) = delete;
+
+ private:
+  const std::atomic<bool>* outer_;
+};
+
+/// Whether, and why, the process or the work of this thread was asked to stop. The user comes before the time limit.
 inline std::optional<StopReason> stop_asked() noexcept {
+  const std::atomic<bool>* const of_thread = stop_detail::of_thread;
+  if (of_thread != nullptr && of_thread->load(std::memory_order_relaxed)) return StopReason::interrupted;
   const std::uint8_t asked = stop_detail::asked.load(std::memory_order_relaxed);
   if (asked == 0) return std::nullopt;
   return (asked & static_cast<std::uint8_t>(StopReason::interrupted)) != 0 ? StopReason::interrupted
                                                                            : StopReason::out_of_time;
 }
 
-/// Throws Stopped, without a place, when the process was asked to stop.
+/// Throws Stopped, without a place, when the process or the work of this thread was asked to stop.
 inline void end_if_stopped() {
-  if (stop_detail::asked.load(std::memory_order_relaxed) != 0) stop_detail::throw_stopped();
+  if (stop_asked()) stop_detail::throw_stopped();
 }
 
-/// The process was asked to stop while a reader read its file or waited for it, a pipe for example. what() is one line.
+/// A stop was asked for while a reader read its file or waited for it, a pipe for example. what() is one line.
 class ReadInterrupted : public Stopped {
  public:
   explicit ReadInterrupted(const std::string& file)

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <noli/errors.h>
+#include "trajectory/stop.h"
 
 namespace noli::python {
 namespace {
@@ -174,6 +175,7 @@ void in_background(std::atomic<bool>& stop, const std::function<void(Background&
     const py::gil_scoped_release unlocked;
     std::thread thread([&] {
       std::fesetenv(FE_DFL_ENV);
+      const StopOfThread heard(stop);
       try {
         work(background);
       } catch (...) {

@@ -196,6 +196,25 @@ class Process(TestCase):
                 noli.verify(V[:4], F)
         self.assertLess(time.monotonic() - began, 2)
 
+    def test_stops_while_it_waits_for_a_pipe(self):
+        pipe = self.folder / "pipe.ply"
+        os.mkfifo(pipe)
+        frame = self.folder / "frame.obj"
+        frame.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        for call in (
+            lambda: noli.verify([frame, pipe]),
+            lambda: noli.check(pipe, self.V[:2], self.F),
+            lambda: noli.check(pipe, [frame, frame]),
+            lambda: noli.read_frames([pipe]),
+            lambda: noli.repair([frame, pipe]),
+        ):
+            timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+            began = time.monotonic()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            self.assertLess(time.monotonic() - began, 5)
+
     def test_the_arithmetic_of_the_process_does_not_matter(self):
         """Libraries that are built with -ffast-math make processors flush subnormal numbers to 0."""
         source = self.folder / "flush.c"

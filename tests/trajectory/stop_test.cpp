@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -44,6 +45,41 @@ TEST(Stop, IsAskedForAndForgotten) {
     EXPECT_EQ(stop_asked(), StopReason::interrupted);
   }
   EXPECT_FALSE(stop_asked());
+}
+
+TEST(Stop, OfAThreadIsHeardByThatThreadAlone) {
+  std::atomic<bool> stop = false;
+  {
+    const StopOfThread of_thread(stop);
+    EXPECT_FALSE(stop_asked());
+    stop = true;
+    EXPECT_EQ(stop_asked(), StopReason::interrupted);
+    EXPECT_THROW(end_if_stopped(), Stopped);
+    std::atomic<bool> other = false;
+    {
+      const StopOfThread inner(other);
+      EXPECT_FALSE(stop_asked());
+      const Asked asked(StopReason::out_of_time);
+      EXPECT_EQ(stop_asked(), StopReason::out_of_time);
+    }
+    EXPECT_TRUE(stop_asked());
+    std::thread([] { EXPECT_FALSE(stop_asked()); }).join();
+  }
+  EXPECT_FALSE(stop_asked());
+}
+
+TEST(InputFile, TheStopOfAThreadEndsItsWaitForAPipe) {
+  const test::TemporaryFolder folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::atomic<bool> stop = false;
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop = true;
+  });
+  const StopOfThread of_thread(stop);
+  EXPECT_THROW(read_whole_file(pipe), ReadInterrupted);
+  later.join();
 }
 
 TEST(Stop, SaysWhy) {
