@@ -22,27 +22,6 @@ namespace fs = std::filesystem;
 constexpr FourLetters content = four_letters("SHRD");
 constexpr FourLetters task_kind = four_letters("TASK");
 
-/// A file that vanishes unless it gets its name.
-class PartOf {
- public:
-  explicit PartOf(const fs::path& file) : file_(file), part_(file.string() + '.' + random_word() + ".part") {}
-  ~PartOf() {
-    std::error_code error;
-    fs::remove(part_, error);
-  }
-  PartOf(const PartOf&) = delete;
-  PartOf& operator=(const PartOf&) = delete;
-
-  const fs::path& path() const { return part_; }
-  void give_name() const {
-    fs::rename(part_, file_);
-    sync_folder(file_.parent_path());
-  }
-
- private:
-  fs::path file_, part_;
-};
-
 /// Copies the groups of a proof behind its claim.
 void copy_steps(const fs::path& proof, BlockWriter& to) {
   BlockReader from(proof, ProofFile::content);
@@ -64,13 +43,23 @@ std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
 
 }  // namespace
 
-std::string random_word() {
+UnfinishedFile::UnfinishedFile(const fs::path& file) : file_(file) {
   std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
+  part_ = file.string() + fmt::format(".{:08x}{:08x}.part", random(), random());
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  std::error_code error;
+  fs::remove(part_, error);
+}
+
+void UnfinishedFile::give_name() const {
+  fs::rename(part_, file_);
+  sync_folder(file_.parent_path());
 }
 
 void write_shard(const fs::path& file, Json head, const std::optional<fs::path>& proof) {
-  const PartOf part(file);
+  const UnfinishedFile part(file);
   head["groups"] = groups_of_steps(proof);
   {
     BlockWriter writer(std::make_unique<FileSink>(part.path(), FileSink::Open::create), content);

@@ -47,11 +47,10 @@ void make(const fs::path& folder) {
 
 /// Writes the file, unless another process has done so meanwhile.
 void publish(const std::string& text, const fs::path& file) {
-  const fs::path part = file.string() + '.' + random_word() + ".part";
-  write_file(part, text);
+  const UnfinishedFile part(file);
+  write_file(part.path(), text);
   std::error_code error;
-  fs::create_hard_link(part, file, error);
-  fs::remove(part);
+  fs::create_hard_link(part.path(), file, error);
   if (!fs::exists(file)) replace_file(file, text);  // no hard links in this file system
 }
 

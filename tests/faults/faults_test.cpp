@@ -46,6 +46,8 @@ const std::vector<Command>& commands() {
       {"CheckInTheChecker", {"check", "IN/proof.noli", "IN/a.obj", "IN/b.obj", "--json", "OUT/a.json"}, "noli_check"},
       {"CheckRun", {"check", "IN/run", "--json", "OUT/a.json"}},
       {"Ccd", {"ccd", "IN/vertex-vertex.csv", "--porcelain"}},
+      {"VerifyShard", {"verify", "IN/a.obj", "IN/b.obj", "--shard", "1/1", "-o", "OUT/shards"}},
+      {"Merge", {"merge", "IN/shards", "--json", "OUT/a.json", "--proof", "OUT/a.noli"}},
       {"Simulate", {"simulate", "IN/scene.json", "-o", "OUT/run"}},
       {"SimulateFrames", {"simulate", "IN/frames.json", "-o", "OUT/run"}},
       {"Resume", {"simulate", "IN/scene.json", "-o", "OUT/run", "--resume"}, "noli", "half"},
@@ -100,6 +102,7 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     made({"simulate", in_->path("scene.json"), "-o", in_->path("run")}, 0);
     made({"simulate", in_->path("scene.json"), "-o", in_->path("half"), "--until", "0.01"}, 0);
     made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--proof", in_->path("proof.noli")}, 0);
+    made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--shard", "1/1", "-o", in_->path("shards")}, 0);
   }
   static void TearDownTestSuite() {
     delete in_;
@@ -139,13 +142,19 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
         {"LD_PRELOAD", NOLI_FAULT_LIBRARY}, {"NOLI_FAULT_PROGRAM", command().program}, {"NOLI_FAULT", fault}};
     if (!counts.empty()) options.environment.emplace_back("NOLI_FAULT_COUNTS", counts);
     const Process process = run_noli(words(), options);
-    Outcome outcome{process.exit_code, process.out, process.err, {}};
+    return {process.exit_code, process.out, process.err, files_now()};
+  }
+
+  /// What a command has written, without what it could not remove: faults of "rename" are of that too.
+  std::map<std::string, std::string> files_now() const {
+    std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out_path("now"))) {
-      const bool left = entry.path().filename().string().starts_with(".noli-");  // could not be removed
+      const std::string name = entry.path().filename();
+      const bool left = name.starts_with(".noli-") || (kind() == "rename" && name.ends_with(".part"));
       if (!entry.is_regular_file() || left) continue;
-      outcome.files[fs::relative(entry.path(), out_path("now")).string()] = content_of(entry.path());
+      files[fs::relative(entry.path(), out_path("now")).string()] = content_of(entry.path());
     }
-    return outcome;
+    return files;
   }
 
   /// The number of calls of the kind that the command makes.
@@ -162,8 +171,8 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     return 0;
   }
 
-  bool makes_a_run() const {
-    return std::ranges::any_of(command().arguments, [](const auto& word) { return word == "OUT/run"; });
+  bool makes(const char* folder) const {
+    return std::ranges::find(command().arguments, folder) != command().arguments.end();
   }
 
   /// The log without anything that depends on the clock.
@@ -178,10 +187,10 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     return all;
   }
 
-  /// What is in the folder of the run.
+  /// What is in the folder of the run, or in that of the shards.
   std::string left_over() const {
     std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(out_path("now/run"))) {
+    for (const auto& entry : fs::recursive_directory_iterator(out_path("now"))) {
       const bool log = entry.path().filename() == "log.jsonl";
       if (entry.is_regular_file()) files[entry.path().filename()] = log ? log_of(entry.path()) : bytes_of(entry.path());
     }
@@ -205,6 +214,14 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     }
   }
 
+  /// Expects that the same command does what a fault left undone.
+  void expect_done_again(const Outcome& whole) {
+    if (!resumed_.insert(left_over()).second) return;
+    const Process process = run_noli(words());
+    EXPECT_EQ(process.exit_code, 0) << process.err;
+    EXPECT_TRUE(files_now() == whole.files);
+  }
+
   void expect_answer_or_none(const Outcome& found, const Outcome& whole) {
     ASSERT_NE(found.exit_code, -1) << "a signal: " << found.err;
     if (!found.same_answer(whole)) {
@@ -214,7 +231,8 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
                         found.out.find("REJECTED") != std::string::npos;
       EXPECT_TRUE(said) << found.exit_code << "without a message: " << found.out << found.err;
     }
-    if (makes_a_run()) expect_goes_on(whole);
+    if (makes("OUT/run")) expect_goes_on(whole);
+    if (makes("OUT/shards")) expect_done_again(whole);
   }
 
   /// Numbers from 1 to `end`: all, or at most `most` of them, with the first and the last.
