@@ -8,6 +8,7 @@
 
 #include <noli/errors.h>
 #include "app/bodies.h"
+#include "app/check_join.h"
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -50,8 +51,8 @@ constexpr const char* check_footer =
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
     "\n"
     "Several processes (--threads) share a proof that is in a file. To share it with other machines, run "
-    "`mpirun noli check`, or --shard 1/N, 2/N, ... anywhere: docs/scale.md says when all of them together prove that "
-    "nothing touches.\n"
+    "`mpirun noli check`, or --shard 1/N, 2/N, ... --json anywhere, and then --join with all of their answers "
+    "(docs/scale.md).\n"
     "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
     "answer (--time-limit, Ctrl-C); 3 anything else.\n"
@@ -61,13 +62,14 @@ constexpr const char* check_footer =
     "  noli check proof.noli rest.ply --require motion=rest\n"
     "  noli check runs/cloth                      its proof.blocks, about its trajectory.blocks\n"
     "  noli check proof.noli runs/cloth --verified\n"
-    "  noli check proof.noli 'frames/*.ply' --shard 2/4\n";
+    "  noli check proof.noli 'frames/*.ply' --shard 2/4 --json 2.json\n"
+    "  noli check --join 1.json 2.json 3.json 4.json\n";
 
 struct CheckArguments {
   std::vector<fs::path> files;
   std::vector<std::string> require;
   std::optional<fs::path> claim;
-  bool verified = false;
+  bool verified = false, join = false;
   std::optional<std::string> steps, shard;
   int threads = 0;
   FrameOrder order = FrameOrder::checked;
@@ -212,8 +214,19 @@ std::optional<CheckerVerdict> verdict_of(CheckRequest& request, const FrameReadi
   return ask(request, reading);
 }
 
+/// The answer about a whole proof, from those about its parts. Throws as joined_answers().
+ExitCode join(const CheckArguments& arguments) {
+  const bool asks_more = !arguments.require.empty() || arguments.claim || arguments.verified || arguments.bodies.any();
+  if (asks_more) throw UsageError("--join: the answers were asked for already; expected their files alone");
+  const Output output(arguments.results, arguments.files);
+  const report::Checked checked = joined_answers(arguments.files);
+  output.write("check", report::check_answer(checked), report::check_json(checked));
+  return ExitCode::holds;
+}
+
 ExitCode run(CheckArguments& arguments) {
   begin_work(arguments.time_limit);
+  if (arguments.join) return join(arguments);
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
   const bool joined = arguments.bodies.any();
   if (joined && (folder || arguments.files.size() != 1))
@@ -263,9 +276,11 @@ Command add_check(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("check", "Does a proof hold?");
   command->footer(check_footer);
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("files", arguments->files, "A proof, then PLY or OBJ files or a run; or a run alone")
+  command
+      ->add_option("files", arguments->files,
+                   "A proof, then PLY or OBJ files or a run; a run alone; with --join, answers")
       ->required()
-      ->type_name("PROOF TRAJECTORY | RUN");
+      ->type_name("PROOF TRAJECTORY | RUN | ANSWERS");
   command
       ->add_option("--require", arguments->require,
                    "What the proof has to claim, a field of the claim; again for others")
@@ -275,9 +290,14 @@ Command add_check(CLI::App& app) {
       ->type_name("CLAIM.json");
   CLI::Option* const steps =
       command->add_option("--steps", arguments->steps, "Check only these steps, counted from 1")->type_name("A..B|A..");
-  command->add_option("--shard", arguments->shard, "Check only the K-th of N parts of the steps, with one process")
-      ->type_name("K/N")
-      ->excludes(steps);
+  CLI::Option* const shard =
+      command->add_option("--shard", arguments->shard, "Check only the K-th of N parts of the steps, with one process")
+          ->type_name("K/N")
+          ->excludes(steps);
+  command
+      ->add_flag("--join", arguments->join,
+                 "Join the answers about all parts of a proof, files of --shard K/N --json OUT; checks nothing again")
+      ->excludes(steps, shard);
   command->add_flag("--verified", arguments->verified, "Use the checker that was extracted from its proof in Coq");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);

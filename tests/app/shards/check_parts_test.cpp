@@ -3,6 +3,7 @@
 // Tests checks of parts of a proof: `noli check --steps`, `--shard`, and several checkers for one answer.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,94 @@ TEST_F(CheckedParts, AreShardsThatNameOneProof) {
         << line;
   }
   EXPECT_EQ(next, static_cast<std::uint64_t>(frames));
+}
+
+/// Answers about parts, as other machines would write them.
+class JoinedAnswers : public CheckedParts {
+ protected:
+  void SetUp() override {
+    CheckedParts::SetUp();
+    for (const char* const which : {"1", "2", "3"}) answer(which, {"--shard", std::string(which) + "/3"});
+  }
+  /// Writes the answer about some steps, and returns its name.
+  std::string answer(const std::string& name, const Words& more) const {
+    const std::string file = folder.path(name + ".json");
+    EXPECT_EQ(check(joined(more, {"--json", file, "--force", "-q"})).exit_code, 0);
+    return file;
+  }
+  std::string changed(const std::string& name, const std::function<void(Json&)>& change) const {
+    Json json = Json::parse(bytes_of(folder.path(name + ".json")));
+    change(json);
+    return folder.write("changed.json", json.dump());
+  }
+  std::string at(const std::string& name) const { return folder.path(name + ".json"); }
+  static Process join(const Words& files) { return run_noli(joined({"check", "--join"}, files)); }
+  static void expect_refused(const Words& files, const std::string& why) {
+    const Process process = join(files);
+    EXPECT_EQ(process.exit_code, 3) << why;
+    EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+    EXPECT_EQ(process.out, "") << why;
+  }
+};
+
+TEST_F(JoinedAnswers, AreThatOfOneChecker) {
+  const Process one = check({"--json", folder.path("one.json")});
+  const Process all = join({at("2"), at("3"), at("1"), "--json", folder.path("all.json")});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(all.verdict_line(), one.verdict_line());
+  EXPECT_NE(all.out.find("joined from the answers about 3 parts; nothing was checked again"), std::string::npos);
+  const Json json = Json::parse(bytes_of(folder.path("all.json")));
+  const Json whole = Json::parse(bytes_of(folder.path("one.json")));
+  for (const auto& [member, value] : whole.items()) {
+    if (member == "notes") continue;
+    EXPECT_EQ(json[member], value) << member;
+  }
+  // Steps that were chosen by hand are parts, too; a part may be all of the proof.
+  EXPECT_EQ(join({answer("a", {"--steps", "1..2"}), answer("b", {"--steps", "3.."})}).exit_code, 0);
+  EXPECT_EQ(join({answer("c", {"--shard", "1/1"})}).exit_code, 0);
+}
+
+TEST_F(JoinedAnswers, CoverEachStepOnce) {
+  expect_refused({at("2"), at("3")}, "are missing");
+  expect_refused({at("1"), at("3")}, "are missing");
+  expect_refused({at("1"), at("2")}, "nothing says that this is the last one");
+  expect_refused({at("1"), at("2"), at("2"), at("3")}, "expected each step once");
+  expect_refused({at("1"), answer("b", {"--steps", "2.."})}, "expected each step once");
+  expect_refused({answer("a", {"--steps", "1..8"})}, "nothing says that this is the last one");
+  expect_refused({}, "files");
+}
+
+TEST_F(JoinedAnswers, AreAboutOneProofAndOneQuestion) {
+  expect_refused({at("1"), at("2"), answer("e", {"--shard", "3/3", "--require", "distance=0"})}, "asked for");
+  if (verified_checker_is_there()) {
+    expect_refused({at("1"), at("2"), answer("v", {"--shard", "3/3", "--verified"})}, "was checked by");
+  }
+  write_wave(8, 1);
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--force", "--proof", proof()}, names)).exit_code, 0);
+  expect_refused({at("1"), at("2"), answer("o", {"--shard", "3/3"})}, "is about the proof with the hash");
+}
+
+TEST_F(JoinedAnswers, AreAcceptedPartsAsCheckersSayThem) {
+  ASSERT_EQ(check({"--json", folder.path("whole.json")}).exit_code, 0);
+  expect_refused({at("whole")}, "is about all steps of a proof");
+  ASSERT_EQ(check({"--steps", "1..9", "--json", folder.path("less.json")}).exit_code, 3);
+  expect_refused({at("less")}, "is rejected");
+  const auto refused = [&](const std::string& why, const std::function<void(Json&)>& change) {
+    expect_refused({at("1"), changed("2", change), at("3")}, why);
+  };
+  refused("is rejected", [](Json& json) { json["verdict"] = "rejected", json["words"] = "rejected: no"; });
+  refused("is not what noli check --json writes", [](Json& json) { json["schema"] = "noli-verify"; });
+  refused("is not what noli check --json writes", [](Json& json) { json["version"] = 2; });
+  refused("is not what noli check --json writes", [](Json& json) { json.erase("words"); });
+  refused("is not what noli check --json writes", [](Json& json) { json["claim"] = nullptr; });
+  refused("is not what noli check --json writes", [](Json& json) { json["claim"]["part"]["last"] = "x"; });
+  refused("do not fit together", [](Json& json) { json["words"] = json["words"].get<std::string>() + "more\n"; });
+  refused("do not fit together", [](Json& json) { json["words"] = "accepted: nothing touches"; });
+  expect_refused({at("1"), folder.write("no.json", "{")}, "no.json");
+  expect_refused({at("1"), folder.path("none.json")}, "none.json");
+  expect_refused({at("1"), at("2"), at("3"), "--verified"}, "expected their files alone");
+  expect_refused({at("1"), at("2"), at("3"), "--require", "steps=8"}, "expected their files alone");
+  expect_refused({at("1"), at("2"), at("3"), "--steps", "1..2"}, "--steps");
 }
 
 /// A claim of more steps than there are is not that of the steps that are there.
