@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages by CPack: noli, libnoli-dev, python3-noli, noli-doc. `scripts/package` makes them; what it generates (man pages, completions, the
+# Debian packages by CPack: noli, libnoli-dev, noli-mpi, python3-noli, noli-doc. `scripts/package` makes them; what it generates (man pages, completions, the
 # documentation, copyright and changelogs as Debian wants them) lies in build/packages/generated, and is installed only where it is.
 set(generated "${CMAKE_SOURCE_DIR}/build/packages/generated")
-foreach(package noli libnoli-dev python3-noli noli-doc)
+foreach(package noli libnoli-dev noli-mpi python3-noli noli-doc)
   set(component runtime)
   if(package STREQUAL libnoli-dev)
     set(component dev)
+  elseif(package STREQUAL noli-mpi)
+    set(component mpi)
   elseif(package STREQUAL python3-noli)
     set(component python)
   elseif(package STREQUAL noli-doc)
@@ -25,6 +27,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL runtime dev doc)
 if(NOLI_WITH_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(NOLI_WITH_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_STRIP_FILES ON)
@@ -49,6 +54,12 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), libcgal-dev, 
 set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ headers and static libraries of Noli: exact continuous collision detection
 for CGAL users, verification of frames in memory or in a solver's loop,
 certified simulation, and proofs; with examples and a CMake package.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME noli-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_DEBIAN_MPI_DESCRIPTION "Noli on many machines: with this library, mpirun noli verify and mpirun noli
+check share the steps of a motion out to all ranks of a job. The answer is that
+of one process, byte for byte.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-noli)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
@@ -65,5 +76,6 @@ proofs with Noli, and reference pages for commands, formats and the C++ API.")
 include(CPack)
 cpack_add_component(runtime)
 cpack_add_component(dev DEPENDS runtime)
+cpack_add_component(mpi DEPENDS runtime)
 cpack_add_component(python DEPENDS runtime)
 cpack_add_component(doc)
