@@ -6,12 +6,16 @@
 
 #include <cstdlib>
 
+#include "app/ranks/ranks.h"
+
 namespace noli::app {
 
 bool has_colour(int descriptor) {
   const char* const refused = std::getenv("NO_COLOR");
   const char* const terminal = std::getenv("TERM");
   if (refused != nullptr && *refused != '\0') return false;
+  // mpirun gives its ranks a terminal each, also when its own output goes to a file.
+  if (Ranks::is_mpi_job()) return false;
   return terminal != nullptr && std::string_view(terminal) != "dumb" && ::isatty(descriptor) == 1;
 }
 

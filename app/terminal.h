@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a terminal shows otherwise than a file: colour. Never where NO_COLOR is set (no-color.org) or TERM is "dumb".
+// What a terminal shows otherwise than a file: colour. Never where NO_COLOR is set (no-color.org) or TERM is "dumb",
+// and never in a job of mpirun.
 #pragma once
 
 #include <string>

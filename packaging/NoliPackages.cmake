@@ -66,8 +66,9 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${python_after}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Noli for Python: arrays to verdict, exactly and with a proof. Frames as arrays,
-generators or files, contact queries by the million, steps of a solver, certified
-simulation and repair, and audits of Python functions for collision detection.")
+generators or files, contact queries by the million, steps of a solver,
+certified simulation and repair, and audits of Python functions for collision
+detection.")
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME noli-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

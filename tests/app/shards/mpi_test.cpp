@@ -16,7 +16,7 @@ class InRanks : public Shards {
   Process job(int ranks, const Words& words, const std::string& before = "") const {
     ProcessOptions options;
     options.program = "/bin/sh";
-    options.environment = {{"NO_COLOR", "1"},
+    options.environment = {{"TERM", "xterm"},  // mpirun gives ranks a terminal
                            {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                            {"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
