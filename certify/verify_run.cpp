@@ -16,6 +16,7 @@
 #include "certify/decided_steps.h"
 #include "certify/groups.h"
 #include "certify/process/hdf5_frames.h"
+#include "certify/process/unfinished_file.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
 #include "certify/stopwatch.h"
@@ -48,32 +49,24 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
   }
 }
 
-/// The file of --trajectory. Until all frames are in it, it has a name of its own, so that no checker takes a part for
-/// the whole. An unfinished file vanishes.
+/// The file of --trajectory. Until all frames are in it, it has another name, so that no checker takes a part for the
+/// whole.
 class TrajectoryFile {
  public:
-  TrajectoryFile(std::filesystem::path file, const Mesh& mesh)
-      : file_(std::move(file)),
-        part_(file_.string() + fmt::format(".{}.part", ::getpid())),
-        writer_(std::make_unique<FileSink>(part_, FileSink::Open::create), mesh) {}
-  ~TrajectoryFile() {
-    std::error_code error;
-    if (!finished_) std::filesystem::remove(part_, error);
-  }
-  TrajectoryFile(const TrajectoryFile&) = delete;
-  TrajectoryFile& operator=(const TrajectoryFile&) = delete;
+  TrajectoryFile(const std::filesystem::path& file, const Mesh& mesh)
+      : file_(file), writer_(std::make_unique<FileSink>(file_.path(), FileSink::Open::create), mesh) {}
 
   FramesWriter& writer() { return writer_; }
   /// Throws std::system_error.
   void finish() {
     writer_.finish();
-    std::filesystem::rename(part_, file_);
+    file_.finish();
     finished_ = true;
   }
   bool finished() const { return finished_; }
 
  private:
-  std::filesystem::path file_, part_;
+  UnfinishedFile file_;
   FramesWriter writer_;
   bool finished_ = false;
 };

@@ -8,6 +8,11 @@
 #include "certify/shards/step_json.h"
 
 namespace noli {
+namespace {
+
+constexpr const char* remedy = "run `noli verify --shard` again: it does what is missing";
+
+}  // namespace
 
 StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh) {
   if (!shard_ || step / steps_of_chain != task_ || step <= step_) open(step / steps_of_chain);
@@ -15,29 +20,29 @@ StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh) {
   return reading(file(), [&] {
     const Json& steps = shard_->head().at("steps");
     if (step - first() < steps.size()) return step_of_json(steps.at(step - first()), mesh);
-    throw InputError(file(), "", fmt::format("ends before step {}; remove it, and do its task again", step + 1));
+    throw InputError(file(), "", fmt::format("ends before step {}; remove it, and {}", step + 1, remedy));
   });
 }
 
 void DecidedShards::open(std::uint64_t task) {
   if (!folder_.has(task)) {
     throw InputError(folder_.path().string(), "",
-                     fmt::format("the shard of task {} is missing (steps {} to {}); do it with `noli verify --shard`",
-                                 task + 1, task * steps_of_chain + 1, (task + 1) * steps_of_chain));
+                     fmt::format("{} is missing (steps {} to {}); {}", folder_.shard(task).filename().string(),
+                                 task * steps_of_chain + 1, (task + 1) * steps_of_chain, remedy));
   }
   task_ = task;
   shard_.emplace(folder_.shard(task), folder_.request_hash(), task);
   require_inputs();
   if (shard_->head().value("claim", Json()) != claim_) {
-    throw InputError(file(), "", "was made for another claim; remove it, and do its task again");
+    throw InputError(file(), "", std::string("was made for another claim; remove it, and ") + remedy);
   }
 }
 
 void DecidedShards::require_inputs() const {
   if (const auto other = other_input(*shard_, files_)) {
     throw InputError(*other, "",
-                     fmt::format("is not the file that {} was made from: its SHA-256 is another one; do task {} again",
-                                 on_one_line(file()), task_ + 1));
+                     fmt::format("is not the file that {} was made from: its SHA-256 is another one; {}",
+                                 on_one_line(file()), remedy));
   }
 }
 

@@ -5,11 +5,11 @@
 
 #include <cstring>
 #include <memory>
-#include <random>
 #include <system_error>
 #include <utility>
 
 #include <noli/errors.h>
+#include "certify/process/unfinished_file.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/sha256.h"
@@ -43,21 +43,6 @@ std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(const fs::path& file) : file_(file) {
-  std::random_device random;
-  part_ = file.string() + fmt::format(".{:08x}{:08x}.part", random(), random());
-}
-
-UnfinishedFile::~UnfinishedFile() {
-  std::error_code error;
-  fs::remove(part_, error);
-}
-
-void UnfinishedFile::give_name() const {
-  fs::rename(part_, file_);
-  sync_folder(file_.parent_path());
-}
-
 void write_shard(const fs::path& file, Json head, const std::optional<fs::path>& proof) {
   const UnfinishedFile part(file);
   head["groups"] = groups_of_steps(proof);
@@ -67,7 +52,7 @@ void write_shard(const fs::path& file, Json head, const std::optional<fs::path>&
     writer.commit();
     if (proof) copy_steps(*proof, writer);
   }
-  part.give_name();
+  part.finish();
 }
 
 ShardReader::ShardReader(const fs::path& file, const std::string& request_hash, std::uint64_t task)
@@ -90,7 +75,7 @@ ShardReader::ShardReader(const fs::path& file, const std::string& request_hash, 
   reader_.next();  // its commit
   next_ = reader_.next();
   if (!has("groups", groups - 1) || reader_.committed().groups == 0) {
-    throw InputError(file.string(), "", "is cut off; remove it, and do its task again");
+    throw InputError(file.string(), "", "is cut off; remove it, and run `noli verify --shard` again");
   }
 }
 

@@ -37,23 +37,6 @@ auto reading(const std::string& file, const Read& read) {
   }
 }
 
-/// A file that vanishes unless it gets its name. Until then its name is one that no other process has, on this machine or
-/// another.
-class UnfinishedFile {
- public:
-  explicit UnfinishedFile(const std::filesystem::path& file);
-  ~UnfinishedFile();
-  UnfinishedFile(const UnfinishedFile&) = delete;
-  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-
-  const std::filesystem::path& path() const { return part_; }
-  /// Replaces the file. Throws std::system_error.
-  void give_name() const;
-
- private:
-  std::filesystem::path file_, part_;
-};
-
 /// Writes a shard under another name first, so that it is there as a whole or not at all. `proof`: a proof file of the
 /// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.
 void write_shard(const std::filesystem::path& file, Json head, const std::optional<std::filesystem::path>& proof);

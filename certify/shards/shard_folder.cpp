@@ -7,6 +7,7 @@
 
 #include <noli/errors.h>
 #include <noli/version.h>
+#include "certify/process/unfinished_file.h"
 #include "certify/shards/shard_file.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/input_file.h"
