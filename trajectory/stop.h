@@ -3,7 +3,7 @@
 // The request to stop this process, from the user (Ctrl-C) or a time limit.
 //
 // A program makes the request, from a signal handler or a timer. Long work checks for it at least ten times a second,
-// and throws Stopped. A check costs two loads, so inner loops may check in each iteration.
+// and throws Stopped. Checks are cheap, so inner loops may check in each iteration.
 //
 // Where several pieces of work go on in one process, each has a request of its own (StopOfThread).
 #pragma once
@@ -33,7 +33,8 @@ inline void ask_to_stop(StopReason reason) noexcept {
 /// Takes all requests back; for tests.
 inline void forget_stops() noexcept { stop_detail::asked.store(0, std::memory_order_relaxed); }
 
-/// While it exists, `stop` stops what this thread does, as Ctrl-C would: also while it waits for a pipe.
+/// While it exists, `stop` stops what this thread does, as Ctrl-C would: also while it waits for a pipe. Threads that
+/// this one starts do not hear it. One within another takes its place.
 class StopOfThread {
  public:
   explicit StopOfThread(const std::atomic<bool>& stop) noexcept

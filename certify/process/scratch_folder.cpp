@@ -28,7 +28,7 @@ fs::path path_of(ScratchFolder::Place place) {
 
 ScratchFolder::ScratchFolder(Place place) : ScratchFolder(path_of(place)) {}
 
-ScratchFolder::ScratchFolder(const fs::path& parent) {
+ScratchFolder::ScratchFolder(const fs::path& parent) : process_(::getpid()) {
   const bool there = ::access(parent.c_str(), W_OK | X_OK) == 0;
   std::string name = ((there ? parent : path_of(Place::disk)) / "noli-scratch-XXXXXX").string();
   // mkdtemp needs the last letters, and replaces them.
@@ -37,6 +37,7 @@ ScratchFolder::ScratchFolder(const fs::path& parent) {
 }
 
 ScratchFolder::~ScratchFolder() {
+  if (process_ != ::getpid()) return;
   std::error_code error;  // what cannot be removed stays
   fs::remove_all(path_, error);
 }

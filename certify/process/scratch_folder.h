@@ -28,6 +28,7 @@ class ScratchFolder {
 
  private:
   std::filesystem::path path_;
+  int process_;  ///< removes it; the child of a fork does not
 };
 
 }  // namespace noli

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
@@ -51,6 +53,8 @@ class Giving {
  private:
   /// If a frame cannot be read, the motion ends before it: that may be all that is asked of the proof.
   void give(FrameSource& frames) {
+    std::optional<StopOfThread> stop_of_thread;
+    if (stop_ != nullptr) stop_of_thread.emplace(*stop_);
     try {
       write_all(frames, pipe_.sink(), [this] {
         pipe_.drained();

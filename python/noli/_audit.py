@@ -56,7 +56,7 @@ class Finding:
         self.__dict__.update(members)
 
     def save(self, file: Path, *, force: bool = False) -> None:
-        """Writes a file that ``noli ccd`` and ``noli audit ccd`` read. Its name has to contain "vertex-face" or "edge-edge"."""
+        """Writes a .csv file that ``noli ccd`` and ``noli audit ccd`` read. Its name has to contain the pair, "edge-edge"."""
         if self.pair.replace("_", "-") not in os.path.basename(os.fspath(file)):
             raise UsageError(f"{os.fspath(file)}: expected a name that contains {self.pair.replace('_', '-')}")
         require_new(file, force)
@@ -183,7 +183,8 @@ def fuzz_queries(
     """Asks a function adversarial queries until it has been asked ``count``, or for so many seconds.
 
     Findings are made simpler while the function still gets them wrong (``shrink``). The queries depend on ``seed``
-    alone. ``function``, ``exact``, ``max_findings`` as for ``audit_ccd``. Returns an Audit.
+    alone. ``pairs`` is "vertex_face", "edge_edge" or both (the default). ``function``, ``exact``, ``max_findings`` as for
+    ``audit_ccd``. Returns an Audit.
     """
     if seconds is None and count is None:
         raise UsageError("expected seconds=, count= or both")

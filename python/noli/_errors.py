@@ -27,7 +27,7 @@ class Stopped(NoliError):
 
 
 class NotProved(NoliError):
-    """What ``raise_unless_proved()`` raises. ``result`` is the result that is no proof."""
+    """What ``raise_unless_proved()`` raises. ``result`` is what it was called on; of a Certifier, an Impact."""
 
     def __init__(self, text: str, result: Any) -> None:
         super().__init__(text)
@@ -38,7 +38,7 @@ class Contact(NotProved):
     """Something touches.
 
     ``time`` is when first, in [0, 1] of the step, rounded down; None where cells intersect as the step begins.
-    ``pairs`` are the listed contacts, as ``Result.contacts``.
+    ``pairs`` are the listed contacts, as ``Result.contacts``; of a Certifier with the fields pair and vertices alone.
     """
 
     def __init__(self, text: str, result: Any, time: Optional[float], pairs: Any) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How results show themselves in a notebook: the verdict, a table of the steps that count, and a page to turn."""
+"""How results show themselves in a notebook: the verdict, a table of the steps that touch or were changed, and a page to turn."""
 
 from __future__ import annotations
 

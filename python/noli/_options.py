@@ -81,6 +81,11 @@ def require_new(file: Any, force: bool, inputs: Sequence[Any] = ()) -> None:
         raise UsageError(f"{os.fspath(file)}: is read; choose another name")
 
 
+def stem(file: Any) -> str:
+    """The file's name without folder and ending."""
+    return os.path.splitext(os.path.basename(os.fspath(file)))[0]
+
+
 def threads_of(value: int) -> int:
     """0: all there are. Raises UsageError."""
     return whole(value, "threads", 0, MOST_THREADS)

@@ -20,9 +20,8 @@ def find():
     return pathlib.Path(found).parent if found else None
 
 
-# Threads that are still at work would be torn out of it. The child of a fork has none of its parent's.
-atexit.register(_core.end_all_work)
-os.register_at_fork(after_in_child=_core.forget_all_work)
+atexit.register(_core.end_all_work)  # threads that are still at work would be torn out of it
+os.register_at_fork(after_in_child=_core.forget_all_work)  # the parent's threads are not in the child
 
 folder = find()
 if folder is not None:

@@ -25,6 +25,7 @@ from ._options import (
     distance,
     refuse_options_of_files,
     require_new,
+    stem,
     threads_of,
     time_limit_of,
     whole,
@@ -61,7 +62,9 @@ class Repaired:
         return np.flatnonzero(self.times == np.floor(self.times))
 
     def to_json(self) -> Json:
-        """A dict, as ``noli repair --json`` writes it: displacements, steps that were changed, the obstacle."""
+        """A dict, as ``noli repair --json`` writes it (``noli schema repair``): "changed" lists the steps that were.
+
+        Without ``output``, the files that it names are gone."""
         return self._json
 
     def raise_unless_proved(self) -> Repaired:
@@ -77,8 +80,8 @@ class Repaired:
         """
         if not self._kept:
             raise UsageError("report: shows the frames in files; pass output= to noli.repair")
-        require_new(file, force)
-        self._repair.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
+        require_new(file, force, [frame["file"] for key in ("inputs", "outputs") for frame in self._json[key]])
+        self._repair.report(os.fspath(file), title or stem(file))
 
     def text(self) -> str:
         """What ``noli repair`` prints."""
@@ -190,7 +193,7 @@ def repair(
         if masses is not None:
             options["masses"] = _masses(masses, scratch)
         pattern = os.fspath(output) if output is not None else os.path.join(scratch, "frame_%06d.ply")
-        done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, told)
+        done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, output is not None, told)
         return Repaired(done, *_read(json.loads(done.json())), kept=output is not None)
 
 

@@ -20,6 +20,7 @@ from ._options import (
     distance,
     refuse_options_of_files,
     require_new,
+    stem,
     threads_of,
     time_limit_of,
     whole,
@@ -117,6 +118,7 @@ class Result:
     def contacts(self) -> np.ndarray[Any, Any]:
         """Listed contacts (at most ``max_reports``), a structured array: step, time, kind, pair, vertices, point.
 
+        Steps share the list fairly. Within a step, contacts are not in order of time.
         ``vertices`` are those of the first feature, then of the second, and -1 where a pair has fewer than four.
         """
         columns = self._outcome.contacts()
@@ -176,7 +178,7 @@ class Result:
     def report(self, file: Path, *, title: Optional[str] = None, force: bool = False) -> None:
         """Writes a page for a browser: verdict, motion, contacts, statement. Frames in memory have to be as they were."""
         require_new(file, force)
-        self._outcome.report(os.fspath(file), title or os.path.splitext(os.path.basename(os.fspath(file)))[0])
+        self._outcome.report(os.fspath(file), title or stem(file))
 
     def to_vtu(self, file: Path, *, number: int = 0, force: bool = False) -> None:
         """Writes everything at the time of a contact as a grid for ParaView; its cells have "contact": 1, 2, else 0.

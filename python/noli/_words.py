@@ -38,7 +38,8 @@ def _bar():
         yield _line
         print()
         return
-    with tqdm(total=1.0, bar_format="{desc} {percentage:3.0f} % |{bar}| {remaining}") as bar:
+    # It goes at the end: a contact ends the work before the bar is full.
+    with tqdm(total=1.0, leave=False, bar_format="{desc} {percentage:3.0f} % |{bar}| {remaining}") as bar:
 
         def tell(work, share):
             if work != bar.desc:

@@ -127,12 +127,12 @@ struct AllWork {
 };
 
 /// Never deleted: threads may outlive what is static.
-AllWork*& all_work_there() {
+AllWork*& current_work() {
   static AllWork* work = new AllWork;
   return work;
 }
 
-AllWork& all_work() { return *all_work_there(); }
+AllWork& all_work() { return *current_work(); }
 
 }  // namespace
 
@@ -146,7 +146,8 @@ Working::Working(std::atomic<bool>& stop) : stop_(stop) {
 Working::~Working() {
   AllWork& all = all_work();
   const std::lock_guard lock(all.mutex);
-  all.stops.erase(all.stops.find(&stop_));
+  const auto mine = all.stops.find(&stop_);
+  if (mine != all.stops.end()) all.stops.erase(mine);  // not there in the child of a fork
   all.changed.notify_all();
 }
 
@@ -159,7 +160,7 @@ void end_all_work() {
   all.changed.wait(lock, [&] { return all.stops.empty(); });
 }
 
-void forget_all_work() { all_work_there() = new AllWork; }
+void forget_all_work() { current_work() = new AllWork; }
 
 void in_background(const std::function<void(Background&)>& work) {
   std::atomic<bool> stop = false;
@@ -175,7 +176,7 @@ void in_background(std::atomic<bool>& stop, const std::function<void(Background&
     const py::gil_scoped_release unlocked;
     std::thread thread([&] {
       std::fesetenv(FE_DFL_ENV);
-      const StopOfThread heard(stop);
+      const StopOfThread stop_of_thread(stop);
       try {
         work(background);
       } catch (...) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/pybind11.h>
 
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -23,13 +25,22 @@ void raise_system(const std::system_error& error) {
   PyErr_SetObject(PyExc_OSError, arguments.ptr());
 }
 
+/// What the command calls --force.
+std::string in_python(std::string text) {
+  constexpr std::string_view option = "--force";
+  for (std::size_t at = text.find(option); at != std::string::npos; at = text.find(option, at)) {
+    text.replace(at, option.size(), "force=True");
+  }
+  return text;
+}
+
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const InputError& error) {
     raise("InputError", error.what());
   } catch (const UsageError& error) {
-    raise("UsageError", error.what());
+    raise("UsageError", in_python(error.what()).c_str());
   } catch (const Stopped& error) {
     raise("Stopped", error.what());
   } catch (const WriteError& error) {

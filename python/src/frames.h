@@ -21,8 +21,9 @@ class Frames {
   explicit Frames(pybind11::object given);
 
   const std::shared_ptr<const GivenFrames>& given() const { return given_; }
+  /// Frames are read now. The background outlives that.
   void call_through(Background* background) { *background_ = background; }
-  /// The same for frames that were read before. Throws UsageError if a generator made them.
+  /// Frames are read once more. Throws UsageError if a generator made them.
   void read_again_through(Background* background);
 
  private:

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <noli/errors.h>
 #include "certify/process/hdf5_frames.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
@@ -19,6 +20,7 @@
 #include "report/page/report_repair.h"
 #include "report/repair_report.h"
 #include "trajectory/blocks/frames_file.h"
+#include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frame_sequence.h"
 
@@ -48,10 +50,10 @@ void put_options(const py::dict& options, RepairRequest& request) {
   request.deadline = deadline_of(options);
 }
 
-/// Frames in memory go through a block file, which keeps every bit.
+/// Frames in memory go through a block file, which keeps every bit. `kept`: what is written stays for report().
 class Repair {
  public:
-  Repair(const py::object& frames, const py::object& mesh, std::string pattern, const py::dict& options,
+  Repair(const py::object& frames, const py::object& mesh, std::string pattern, const py::dict& options, bool kept,
          const py::object& progress) {
     put_options(options, request_);
     request_.pattern = std::move(pattern);
@@ -82,6 +84,7 @@ class Repair {
     });
     request_.stop = nullptr;
     request_.progress = {};
+    if (!kept) given_.reset();
   }
 
   std::string json() const { return to_text(report::document("repair", report::repair_json(request_, outcome_))); }
@@ -90,12 +93,17 @@ class Repair {
   /// A page with both motions, as `noli report` makes it of a result with the name `title`. All frames have to be as
   /// they were.
   void report(const fs::path& file, const std::string& title) {
+    const auto alone = one_at_a_time_.enter();
     in_background([&](Background& background) {
       const ScratchFolder folder;
       Json result = Json::parse(json());
       if (given_) {
         given_->read_again_through(&background);
-        result["inputs"][0]["file"] = write_given_frames(folder).string();
+        const fs::path frames_file = write_given_frames(folder);
+        if (file_facts(frames_file).sha256 != outcome_.inputs.at(0).sha256) {
+          throw InputError("frames", "", "have changed since they were repaired; expected the frames of this result");
+        }
+        result["inputs"][0]["file"] = frames_file.string();
       }
       write_page(file, title, [&](report::ReportPage& page) { report::report_repair(result, title, {}, page); });
     });
@@ -120,6 +128,7 @@ class Repair {
     return file;
   }
 
+  OneAtATime one_at_a_time_;
   RepairRequest request_;
   RepairOutcome outcome_;
   std::optional<Frames> given_;
@@ -148,7 +157,7 @@ py::tuple read_frames(const std::vector<fs::path>& names) {
 
 void bind_repair(py::module_& core) {
   py::class_<Repair>(core, "Repair")
-      .def(py::init<const py::object&, const py::object&, std::string, const py::dict&, const py::object&>())
+      .def(py::init<const py::object&, const py::object&, std::string, const py::dict&, bool, const py::object&>())
       .def("json", &Repair::json)
       .def("report", &Repair::report)
       .def("text", &Repair::text);

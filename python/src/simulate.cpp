@@ -3,10 +3,12 @@
 #include <noli/simulate.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <cfenv>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,6 +22,7 @@
 #include "python/src/options.h"
 #include "report/documents.h"
 #include "report/simulate_report.h"
+#include "trajectory/stop.h"
 
 namespace noli::python {
 namespace {
@@ -66,11 +69,14 @@ class Simulation {
     thread_ = std::thread([this] { work(); });
   }
   ~Simulation() { close(); }
+  /// Not in the child of a fork, which has no such thread.
+  bool is_of_this_process() const { return process_ == ::getpid(); }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// The next window, or None behind the last. Throws what the simulation threw.
   py::object next() {
+    if (!is_of_this_process()) throw UsageError("the simulation goes on in the process that was forked");
     const auto alone = one_at_a_time_.enter();
     const Working working(stop_);
     const std::optional<SeriesRow> row = wait_for_row();
@@ -94,6 +100,7 @@ class Simulation {
 
   /// Ends it at the last committed window, and waits for that.
   void close() {
+    if (!is_of_this_process()) return;
     stop_ = true;
     changed_.notify_all();
     if (one_at_a_time_.is_mine()) return;  // a signal handler of the thread that waits for a window: it ends now
@@ -120,6 +127,7 @@ class Simulation {
 
   void work() {
     std::fesetenv(FE_DFL_ENV);
+    const StopOfThread stop_of_thread(stop_);
     try {
       outcome_ = run_simulate(request_);
     } catch (...) {
@@ -177,12 +185,20 @@ class Simulation {
   bool ended_ = false;
   std::exception_ptr thrown_;
   std::thread thread_;
+  int process_ = ::getpid();
+};
+
+/// In the child of a fork it stays, since the destructors of its members would wait for the parent's thread.
+struct Deleter {
+  void operator()(Simulation* simulation) const {
+    if (simulation->is_of_this_process()) delete simulation;
+  }
 };
 
 }  // namespace
 
 void bind_simulate(py::module_& core) {
-  py::class_<Simulation>(core, "Simulation")
+  py::class_<Simulation, std::unique_ptr<Simulation, Deleter>>(core, "Simulation")
       .def(py::init<std::filesystem::path, std::filesystem::path, const py::dict&>())
       .def("next", &Simulation::next)
       .def("close", &Simulation::close)

@@ -161,12 +161,25 @@ class Process(TestCase):
             from support import falling_sheet
             V, F, _ = falling_sheet(100, 30, 0.01)
             small, faces, _ = falling_sheet(4)
-            threading.Thread(target=lambda: noli.verify(V, F, threads=1, check=False), daemon=True).start()
+            noli.verify(small[:4], faces, check=False)  # with all threads
+            simulation = noli.simulate({str(ROOT / "scenes" / "swinging_cloth.json")!r}, {str(self.folder / "run")!r})
+            next(simulation)
+            thread = threading.Thread(target=lambda: noli.verify(V, F, threads=1, check=False), daemon=True)
+            thread.start()
             time.sleep(0.2)
+            assert thread.is_alive()
             if os.fork() == 0:
-                assert noli.verify(small, faces, threads=1).verdict == "contact"
-                assert noli.verify(small[:4], faces, threads=1).verdict == "proved"
-                sys.exit(7)
+                for threads in (1, 0):
+                    assert noli.verify(small, faces, threads=threads).verdict == "contact"
+                    assert noli.verify(small[:4], faces, threads=threads).verdict == "proved"
+                try:
+                    next(simulation)
+                except noli.UsageError:
+                    simulation.close()
+                    del simulation
+                    sys.exit(7)
+            next(simulation)
+            simulation.close()
             assert os.waitstatus_to_exitcode(os.wait()[1]) == 7
         """
         done = subprocess.run(
@@ -200,19 +213,29 @@ class Process(TestCase):
         pipe = self.folder / "pipe.ply"
         os.mkfifo(pipe)
         frame = self.folder / "frame.obj"
-        frame.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        rows = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in self.V[0].tolist()]
+        frame.write_text("".join(rows + [f"f {a} {b} {c}\n" for a, b, c in (self.F + 1).tolist()]))
+        proof, scene = self.folder / "a.noli", self.folder / "scene.json"
+        noli.verify([frame, frame], proof=proof)
+        os.mkfifo(scene)
         for call in (
             lambda: noli.verify([frame, pipe]),
             lambda: noli.check(pipe, self.V[:2], self.F),
             lambda: noli.check(pipe, [frame, frame]),
             lambda: noli.read_frames([pipe]),
             lambda: noli.repair([frame, pipe]),
+            lambda: noli.check(proof, [frame, pipe]),
+            lambda: noli.check(proof, {"sheet": [frame, pipe]}),
+            lambda: noli.simulate(scene, self.folder / "run").finish(),
         ):
             timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
             began = time.monotonic()
             timer.start()
-            with self.assertRaises(KeyboardInterrupt):
-                call()
+            try:
+                with self.assertRaises(KeyboardInterrupt):
+                    call()
+            finally:
+                timer.cancel()
             self.assertLess(time.monotonic() - began, 5)
 
     def test_the_arithmetic_of_the_process_does_not_matter(self):

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+import threading
+
 import noli
 import numpy as np
 from support import TestCase, falling_sheet
@@ -62,6 +64,7 @@ class Repair(TestCase):
         try:
             found.report(self.folder / "page.html", title="two sheets")
         except noli.UsageError as error:
+            self.assertIn("built without reports", str(error))
             self.skipTest(str(error))
         page = (self.folder / "page.html").read_text(encoding="utf-8")
         self.assertIn("two sheets", page)
@@ -69,13 +72,15 @@ class Repair(TestCase):
         self.assertIn("<iframe", found._repr_html_())
         with self.assertRaisesRegex(noli.UsageError, "exists already"):
             found.report(self.folder / "page.html")
+        with self.assertRaisesRegex(noli.UsageError, "is read"):
+            found.report(self.folder / "out" / "f001.ply", force=True)
         with self.assertRaisesRegex(noli.UsageError, "output="):
             noli.repair(self.V, self.mesh).report(self.folder / "other.html")
         spent = noli.repair(iter(self.V), self.mesh, output=self.folder / "spent" / "f%03d.ply")
         with self.assertRaisesRegex(noli.UsageError, "generator"):
             spent.report(self.folder / "other.html")
         self.V[2, 3, 1] += 1e-9
-        with self.assertRaisesRegex(noli.InputError, "other frames"):
+        with self.assertRaisesRegex(noli.InputError, "^frames: have changed"):
             found.report(self.folder / "other.html")
         self.assertFalse((self.folder / "other.html").exists())
 
@@ -83,9 +88,30 @@ class Repair(TestCase):
         page = noli.repair(self.V, self.mesh)._repr_html_()
         self.assertIn("PROVED", page)
         self.assertIn("<td>4</td><td>128</td><td>0.1544</td>", page)
-        self.assertNotIn("<td>3</td>", page.split("</tr>")[1])
+        self.assertEqual([row.split("</td>")[0] for row in page.split("<tr><td>")[1:]], ["4", "5"])
         self.assertNotIn("<iframe", page)
         self.assertNotIn("<table", noli.repair(self.V[:4], self.mesh)._repr_html_())
+
+    def test_threads_may_share_a_result(self):
+        """Frames of a list are asked for in the interpreter's thread of each call."""
+        found = noli.repair(list(self.V), self.mesh, output=self.folder / "out" / "f%03d.ply")
+        failures = []
+
+        def work(k):
+            try:
+                for _ in range(5):
+                    found.report(self.folder / f"{k}.html", force=True)
+            except noli.UsageError as error:
+                if "built without reports" not in str(error):
+                    failures.append(error)
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(timeout=60)
+            self.assertFalse(thread.is_alive())
+        self.assertEqual(failures, [])
 
     def test_resume(self):
         pattern = self.folder / "f%03d.ply"
