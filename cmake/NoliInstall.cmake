@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What is installed, in components, each of which is a Debian package (packaging/): `runtime`, the programs and what they read; `dev`,
-# libraries, public headers, and what find_package(noli) reads; `python`; `doc`.
+# libraries, public headers, and what find_package(noli) reads; `mpi`; `python`; `doc`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME noli)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "noli-doc, libnoli-dev")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "noli-doc, noli-mpi, libnoli-dev")
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Noli decides in exact arithmetic whether anything touched between the frames
 of a simulation, and writes a proof that a separate checker verifies. It also
 simulates scenes with certified contact, fuzzes collision detection libraries

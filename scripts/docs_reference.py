@@ -190,6 +190,8 @@ def cpp():
 
 def signature(function):
     """As it is called: an argument a line if there are many."""
+    if function.args.posonlyargs or function.args.vararg or function.args.kwarg:
+        sys.exit(f"docs_reference.py: {function.name} has arguments of a kind that is not described here")
     arguments = [ast.unparse(argument) for argument in _with_defaults(function.args) if argument.args[0].arg != "self"]
     result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
     line = f"{function.name}({', '.join(arguments)}){result}"
@@ -234,7 +236,7 @@ def python_class(node):
 
 
 def python():
-    """What `import noli` offers, in the order of its modules."""
+    """What `import noli` offers, in alphabetical order."""
     package = ROOT / "python/noli"
     public, parts = [], []
     for line in ast.parse((package / "__init__.py").read_text(encoding="utf-8")).body:

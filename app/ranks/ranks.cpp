@@ -57,8 +57,8 @@ struct Ranks::Library {
   explicit Library(const std::filesystem::path& file) : handle(::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL)) {
     if (handle == nullptr) {
       throw UsageError(fmt::format(
-          "mpirun started {} ranks, but noli_mpi.so cannot be loaded ({}); build Noli with NOLI_WITH_MPI, or use "
-          "--shard",
+          "mpirun started {} ranks, but noli_mpi.so cannot be loaded ({}); install the package noli-mpi, build Noli "
+          "with NOLI_WITH_MPI, or use --shard",
           ranks_in_environment(), on_one_line(::dlerror())));
     }
     find(version, "noli_mpi_version");
