@@ -46,9 +46,6 @@ struct StepResult;
 /// Steps first, first + 1, ..., end - 1, from 0.
 struct StepRange {
   std::uint64_t first = 0, end = 0;
-
-  bool contains(std::uint64_t step) const { return first <= step && step < end; }
-  friend bool operator==(const StepRange&, const StepRange&) = default;
 };
 
 struct VerifyRequest {

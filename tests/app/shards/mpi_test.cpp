@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests `mpirun noli verify`: ranks give the answer of one process, and a job that died goes on.
+// Tests `mpirun noli verify` and `check`: ranks give the answer of one process, and a job that died goes on.
 #include <chrono>
 #include <random>
 #include <thread>
@@ -16,7 +16,8 @@ class InRanks : public Shards {
   Process job(int ranks, const Words& words, const std::string& before = "") const {
     ProcessOptions options;
     options.program = "/bin/sh";
-    options.environment = {{"TERM", "xterm"},  // mpirun gives ranks a terminal
+    options.environment = {{"TERM", "xterm"},  // mpirun gives a rank a terminal
+                           {"NO_COLOR", ""},
                            {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                            {"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
@@ -93,6 +94,9 @@ TEST_F(InRanks, OtherFramesOfARankAreNoticed) {
 
 TEST_F(InRanks, WrongUsageEndsTheJob) {
   EXPECT_EQ(job(2, {"verify", folder.path("none.ply"), folder.path("nor.ply")}).exit_code, 3);
+  const Process join = job(2, {"check", "--join", folder.path("1.json")});
+  EXPECT_EQ(join.exit_code, 3);
+  EXPECT_NE(join.err.find("--join: is for one process"), std::string::npos) << join.err;
   const Process other = job(2, {"info", write_motion(2)[0]});
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_NE(other.err.find("`noli info` is for one process"), std::string::npos) << other.err;

@@ -21,8 +21,10 @@ using Words = std::vector<std::string>;
 
 class Shards : public testing::Test {
  protected:
-  /// Waves of a sheet above a floor; in the frames `through`, a triangle beside it is below the floor.
-  Words write_motion(std::size_t frames, const std::set<std::size_t>& through = {}) const {
+  /// Waves of a sheet above a floor; in the frames `through`, a triangle beside it is below the floor. `still`:
+  /// nothing, or the corners of one more triangle.
+  Words write_motion(std::size_t frames, const std::set<std::size_t>& through = {},
+                     const std::vector<Position>& still = {}) const {
     Words paths;
     for (std::size_t k = 0; k < frames; ++k) {
       std::vector<Position> points = {{-1, -1, 0}, {9, -1, 0}, {-1, 9, 0}};
@@ -33,9 +35,10 @@ class Shards : public testing::Test {
         const double x = column, y = row;
         points.push_back({x, y, 1 + 0.125 * static_cast<double>((i + k) % 5)});
       }
-      const std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2},    {3, 4, 5},   {6, 7, 9},   {7, 10, 9},
-                                                          {7, 8, 10},   {8, 11, 10}, {9, 10, 12}, {10, 13, 12},
-                                                          {10, 11, 13}, {11, 14, 13}};
+      std::vector<std::array<VertexId, 3>> faces = {{0, 1, 2},   {3, 4, 5},   {6, 7, 9},    {7, 10, 9},   {7, 8, 10},
+                                                    {8, 11, 10}, {9, 10, 12}, {10, 13, 12}, {10, 11, 13}, {11, 14, 13}};
+      points.insert(points.end(), still.begin(), still.end());
+      if (!still.empty()) faces.push_back({15, 16, 17});
       paths.push_back(folder.write("frame_" + std::to_string(100 + k) + ".ply", ply_text(points, faces)));
     }
     return paths;

@@ -17,6 +17,7 @@ struct Question {
   std::set<std::size_t> through;
   Words options;
   int exit_code;
+  std::vector<Position> still = {};  ///< a triangle that touches without the options
 };
 
 void PrintTo(const Question& question, std::ostream* out) { *out << question.name; }
@@ -25,7 +26,11 @@ class AnyQuestion : public Shards, public testing::WithParamInterface<Question> 
 
 TEST_P(AnyQuestion, HasTheAnswerOfOneProcess) {
   const Question& question = GetParam();
-  Words asked = joined(write_motion(40, question.through), question.options);
+  const Words frames = write_motion(40, question.through, question.still);
+  if (!question.still.empty()) {
+    EXPECT_EQ(whole(frames).exit_code, 1);
+  }
+  Words asked = joined(frames, question.options);
   if (std::string(question.name) == "ignore") {
     asked = joined(asked, {"--ignore", folder.write("groups.json", R"({"groups": {"floor": [[0, 2]], "other": [[3, 5]],
                                         "sheet": [[6, 14]]}, "ignore": [["floor", "other"]]})")});
@@ -41,6 +46,9 @@ TEST_P(AnyQuestion, HasTheAnswerOfOneProcess) {
   EXPECT_EQ(worst, question.exit_code);
   expect_same_answer(one, merge());
 }
+
+const std::vector<Position> at_the_corner = {{-1, -1, 0}, {-2, -1, 0}, {-1, -2, 0}};
+const std::vector<Position> through_the_floor = {{0, 4, -0.5}, {0.5, 4, 0.5}, {0, 4.5, 0.5}};
 
 INSTANTIATE_TEST_SUITE_P(
     All, AnyQuestion,
@@ -58,8 +66,10 @@ INSTANTIATE_TEST_SUITE_P(
         Question{
             "distance_unchecked", {}, {"--no-check", "--min-distance", "0.01", "--min-distance-from-ring", "2"}, 0},
         Question{"at_rest", {}, {"--static"}, 0}, Question{"strict", {}, {"--strict"}, 0},
-        Question{"merged", {}, {"--merge-identical"}, 0}, Question{"ignore", {20, 30}, {}, 0},
-        Question{"only_new", {20}, {"--only-new"}, 1}, Question{"space", {}, {"--dimension", "3"}, 0}),
+        Question{"merged", {}, {"--merge-identical"}, 0, at_the_corner}, Question{"ignore", {20, 30}, {}, 0},
+        Question{"only_new", {}, {"--only-new"}, 0, through_the_floor},
+        Question{"only_new_and_contact", {20}, {"--only-new"}, 1, through_the_floor},
+        Question{"space", {}, {"--dimension", "3"}, 0}),
     [](const auto& one) { return one.param.name; });
 
 TEST_F(Shards, OfLongSequencesHaveTheAnswerOfOneProcess) {
@@ -161,7 +171,7 @@ class SpoiltShards : public Shards {
 
 TEST_F(SpoiltShards, AMissingOneIsNamed) {
   fs::remove(shard(2));
-  expect_refused("the shard of task 2 is missing (steps 17 to 32)");
+  expect_refused("task_000002.shard is missing (steps 17 to 32); run `noli verify --shard` again");
 }
 
 TEST_F(SpoiltShards, ADoubledOneIsNamed) {
