@@ -8,7 +8,6 @@
 
 #include <noli/errors.h>
 #include "app/bodies.h"
-#include "app/check_join.h"
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
@@ -20,10 +19,13 @@
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/check_parts.h"
 #include "certify/proofs/checker.h"
+#include "integrator/scene/json_text.h"
 #include "report/check_report.h"
 #include "report/input_report.h"
+#include "report/joined_check.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/open_frames.h"
+#include "trajectory/input_file.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -51,7 +53,7 @@ constexpr const char* check_footer =
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
     "\n"
     "Several processes (--threads) share a proof that is in a file. To share it with other machines, run "
-    "`mpirun noli check`, or --shard 1/N, 2/N, ... --json anywhere, and then --join with all of their answers "
+    "`mpirun noli check`, or --shard K/N --json OUT anywhere for each K, and then --join with all answers "
     "(docs/scale.md).\n"
     "\n"
     "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
@@ -79,14 +81,12 @@ struct CheckArguments {
   OutputOptions results;
 };
 
-/// The words of --require; those of the command line count before those of --claim.
-std::vector<std::string> asked_by(const CheckArguments& arguments) {
-  std::vector<std::string> words = arguments.require;
-  if (!arguments.claim) return words;
-  for (const std::string& word : read_claim_file(*arguments.claim)) {
-    if (!asks(arguments.require, field_of(word))) words.push_back(word);
+/// The fields of --claim that --require does not ask for.
+void add_claim(const fs::path& claim, std::vector<std::string>& words) {
+  const std::vector<std::string> by_name = words;
+  for (const std::string& word : read_claim_file(claim)) {
+    if (!asks(by_name, field_of(word))) words.push_back(word);
   }
-  return words;
 }
 
 /// The steps of --shard K/N: the K-th of N parts of the proof, as A..B or A..
@@ -95,9 +95,8 @@ std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   const std::vector<std::uint64_t> parts = parts_of_proof(proof, shard.of);
   if (const auto reason = stop_asked()) throw Stopped(*reason, proof.string());
   if (parts.empty()) {
-    throw UsageError(proof.string() +
-                     ": cannot be cut into parts, as it has a witness, is damaged, or is no regular file; expected no "
-                     "--shard: without it `noli check` says what is the matter");
+    throw UsageError(fmt::format("{}: {}; expected no --shard: without it `noli check` says what is the matter",
+                                 proof.string(), proof_cannot_be_cut));
   }
   if (parts.size() < shard.of) {
     const std::size_t steps = parts.size();
@@ -117,22 +116,14 @@ std::string parse_steps(const std::string& text) {
       fmt::format("--steps {}: expected A..B with 1 <= A <= B, or A..; 5..5 is step 5 alone", on_one_line(text)));
 }
 
-/// Asks for the steps of --steps or --shard instead of all. To the end means at least as far as a claim or the log of a
-/// run asks for.
-void ask_for_part(const CheckArguments& arguments, const fs::path& proof, std::vector<std::string>& words) {
-  if (!arguments.steps && !arguments.shard) return;
+/// The steps of --steps, --shard or --require steps=A..B; that is taken out of the words. Nothing if all are asked for.
+std::optional<std::string> asked_part(const CheckArguments& arguments, const fs::path& proof,
+                                      std::vector<std::string>& words) {
+  if (!arguments.steps && !arguments.shard) return take_part(words);
   if (asks(arguments.require, "steps")) {
     throw UsageError("--require steps: --steps and --shard choose steps too; expected one of them");
   }
-  const std::string steps = arguments.steps ? parse_steps(*arguments.steps) : steps_of_shard(*arguments.shard, proof);
-  const std::uint64_t wanted = asked_steps(words).value_or(0), there = wanted > 0 ? steps_of_proof(proof) : 0;
-  if (steps.ends_with("..") && there < wanted) {
-    throw InputError(
-        proof.string(), "",
-        fmt::format("{} steps are asked for, and the proof has {}, or cannot be cut into parts", wanted, there));
-  }
-  std::erase_if(words, [](const std::string& word) { return field_of(word) == "steps"; });
-  words.push_back("steps=" + steps);
+  return arguments.steps ? parse_steps(*arguments.steps) : steps_of_shard(*arguments.shard, proof);
 }
 
 /// Whether checkers read the motion themselves. What holds no frames by its name or first bytes is theirs to refuse.
@@ -214,12 +205,19 @@ std::optional<CheckerVerdict> verdict_of(CheckRequest& request, const FrameReadi
   return ask(request, reading);
 }
 
-/// The answer about a whole proof, from those about its parts. Throws as joined_answers().
+/// The answer about a whole proof, from those about its parts.
 ExitCode join(const CheckArguments& arguments) {
-  const bool asks_more = !arguments.require.empty() || arguments.claim || arguments.verified || arguments.bodies.any();
+  if (Ranks::started_by_mpirun()) throw UsageError("--join: is for one process; mpirun started several");
+  const bool asks_more = !arguments.require.empty() || arguments.claim || arguments.verified ||
+                         arguments.bodies.any() || arguments.order != FrameOrder::checked ||
+                         !arguments.reading.keys.empty() || arguments.threads != 0;
   if (asks_more) throw UsageError("--join: the answers were asked for already; expected their files alone");
   const Output output(arguments.results, arguments.files);
-  const report::Checked checked = joined_answers(arguments.files);
+  std::vector<report::PartAnswer> answers;
+  for (const fs::path& file : arguments.files) {
+    answers.push_back({file.string(), integrator::parse_json(read_whole_file(file), file.string())});
+  }
+  const report::Checked checked = report::joined_check(answers);
   output.write("check", report::check_answer(checked), report::check_json(checked));
   return ExitCode::holds;
 }
@@ -228,15 +226,15 @@ ExitCode run(CheckArguments& arguments) {
   begin_work(arguments.time_limit);
   if (arguments.join) return join(arguments);
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
-  const bool joined = arguments.bodies.any();
-  if (joined && (folder || arguments.files.size() != 1))
+  const bool has_bodies = arguments.bodies.any();
+  if (has_bodies && (folder || arguments.files.size() != 1))
     throw UsageError("--body: expected one proof beside the bodies");
-  if (!folder && !joined && arguments.files.size() < 2) {
+  if (!folder && !has_bodies && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
   const auto ranks = Ranks::of_this_job();
   const OrderedFrames ordered =
-      joined
+      has_bodies
           ? ordered_bodies(arguments)
           : order_frames(folder ? arguments.files : named_frames({arguments.files.begin() + 1, arguments.files.end()}),
                          arguments.order);
@@ -244,12 +242,14 @@ ExitCode run(CheckArguments& arguments) {
   const fs::path proof = proof_of(arguments, folder);
   std::optional<const Output> output;  // of the first rank alone
   if (!ranks || ranks->is_first()) output.emplace(arguments.results, inputs_of(arguments, ordered.frames));
-  std::vector<std::string> asked = asked_by(arguments), notes = ordered.notes;
+  std::vector<std::string> notes = ordered.notes, asked = arguments.require;
+  const auto part = asked_part(arguments, proof, asked);
+  if (arguments.claim) add_claim(*arguments.claim, asked);
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
     if (output && !arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
   }
-  ask_for_part(arguments, proof, asked);
+  const std::uint64_t least_steps = part ? ask_for_part(*part, proof, asked) : 0;
   const Checker which = arguments.verified ? Checker::verified : Checker::plain;
   CheckRequest request{.checker = which,
                        .proof = proof,
@@ -264,7 +264,7 @@ ExitCode run(CheckArguments& arguments) {
   if (!verdict || !output) return ranks->end(ExitCode::holds);  // the first rank's becomes that of all
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict->words.starts_with(at_fault)) throw UsageError(first_line(verdict->words).substr(at_fault.size()));
-  const report::Checked checked{version_of(which), proof, asked, *verdict, notes};
+  const report::Checked checked{version_of(which), proof, asked, *verdict, notes, least_steps};
   output->write("check", report::check_answer(checked), report::check_json(checked));
   const auto code = static_cast<ExitCode>(verdict->code);
   return ranks ? ranks->end(code) : code;

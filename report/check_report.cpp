@@ -47,14 +47,17 @@ const char* word_of(const CheckerVerdict& verdict) {
   return verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
 }
 
-std::string next_step(const CheckerVerdict& verdict, bool plain) {
-  const bool names_remedy = first_line(verdict.words).find("asks for that") != std::string::npos;
+std::string next_step(const CheckerVerdict& verdict, bool can_be_verified) {
+  const std::string line = first_line(verdict.words);
+  const bool names_remedy = line.find("asks for that") != std::string::npos,
+             asks_too_far = line.find("has none of the steps") != std::string::npos;
   switch (verdict.code) {
-    case 0: return plain ? "--verified asks the checker whose soundness is proved in Coq." : "";
+    case 0: return can_be_verified ? "--verified asks the checker whose soundness is proved in Coq." : "";
     case 1: return "noli verify with the same frames or run shows where and when.";
     default:
-      return names_remedy
-                 ? ""
+      return names_remedy ? ""
+             : asks_too_far
+                 ? "ask for steps that the proof has."
                  : "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
   }
 }
@@ -62,21 +65,24 @@ std::string next_step(const CheckerVerdict& verdict, bool plain) {
 }  // namespace
 
 Json check_json(const Checked& checked) {
-  const auto& [checker, proof, asked, verdict, notes] = checked;
+  const auto& [checker, proof, asked, verdict, notes, least_steps, joined] = checked;
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
-  return {{"verdict", word_of(verdict)},
-          {"checker", checker_json(checker)},
-          {"proof", proof.string()},
-          {"asked", asked_json(asked)},
-          {"claim", claim ? checked_claim(*claim) : Json(nullptr)},
-          {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
-          {"words", verdict.words},
-          {"notes", notes}};
+  Json json = {{"verdict", word_of(verdict)},
+               {"checker", checker_json(checker)},
+               {"proof", proof.string()},
+               {"asked", asked_json(asked)},
+               {"claim", claim ? checked_claim(*claim) : Json(nullptr)},
+               {"weaker", verdict.code == 3 ? Json::array() : weaker_json(verdict.words)},
+               {"words", verdict.words},
+               {"notes", notes}};
+  if (least_steps > 0) json["least_steps"] = least_steps;
+  if (joined > 0) json["joined"] = joined;
+  return json;
 }
 
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
 Answer check_answer(const Checked& checked) {
-  const auto& [checker, proof, asked, verdict, notes] = checked;
+  const auto& [checker, proof, asked, verdict, notes, least_steps, joined] = checked;
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
@@ -84,6 +90,7 @@ Answer check_answer(const Checked& checked) {
   if (claim && claim->part) {
     members.insert(members.end(), {"first=claim/part/first", "last=claim/part/last", "proof=claim/part/proof"});
   }
+  if (joined > 0) members.emplace_back("joined=joined");
   Answer answer(check_json(checked), members);
   answer.text = rest.starts_with("claim ") ? rest.substr(std::min(rest.find('\n') + 1, rest.size())) : rest;
   answer.text += notes_text(notes);
@@ -93,7 +100,7 @@ Answer check_answer(const Checked& checked) {
   const std::size_t at = what.find(touches);
   if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
-  answer.next = next_step(verdict, checker.name == "noli_check");
+  answer.next = next_step(verdict, checker.name == "noli_check" && joined == 0);
   return answer;
 }
 

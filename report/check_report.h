@@ -3,6 +3,8 @@
 // The words of `noli check`: its JSON, and its answer for people and machines.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +22,8 @@ struct Checked {
   std::vector<std::string> asked;  ///< as CheckRequest::asked
   CheckerVerdict verdict;
   std::vector<std::string> notes;
+  std::uint64_t least_steps = 0;  ///< of a part: how many steps the whole has to have, by a claim or the log of a run
+  std::size_t joined = 0;         ///< from so many answers about parts; 0: the checker looked at all that was asked
 };
 
 /// Schema check.

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <utility>
 
+#include <noli/errors.h>
 #include "certify/proofs/asked_fields.h"
 #include "kernel/parallel.h"
 #include "trajectory/blocks/block_file.h"
@@ -179,6 +180,29 @@ std::optional<std::uint64_t> asked_steps(const std::vector<std::string>& asked) 
     steps = plain && number > 0 && steps == 0 ? std::optional(number) : std::nullopt;
   }
   return steps;
+}
+
+std::optional<std::string> take_part(std::vector<std::string>& asked) {
+  const auto is_of_steps = [](const std::string& word) { return field_of(word) == "steps"; };
+  const auto part = std::ranges::find_if(asked, is_of_steps);
+  if (part == asked.end() || part->find("..") == std::string::npos) return std::nullopt;
+  if (std::ranges::count_if(asked, is_of_steps) > 1) return std::nullopt;
+  std::string steps = part->substr(part->find('=') + 1);
+  asked.erase(part);
+  return steps;
+}
+
+std::uint64_t ask_for_part(const std::string& steps, const fs::path& proof, std::vector<std::string>& asked) {
+  const std::uint64_t least = asked_steps(asked).value_or(0);
+  const std::uint64_t there = least > 0 && steps.ends_with("..") ? steps_of_proof(proof) : least;
+  if (there < least) {
+    throw InputError(proof.string(), "",
+                     there == 0 ? std::string(proof_cannot_be_cut)
+                                : fmt::format("{} steps are asked for, and the proof has {}", least, there));
+  }
+  if (least > 0) std::erase_if(asked, [](const std::string& word) { return field_of(word) == "steps"; });
+  asked.push_back("steps=" + steps);
+  return least;
 }
 
 std::optional<std::string> joined_words(const std::vector<std::string>& words, std::uint64_t least_steps) {

@@ -26,6 +26,19 @@ std::uint64_t steps_of_proof(const std::filesystem::path& proof);
 /// The steps of a part, as checkers are asked for them: "17..32", or "33.." for the last one.
 std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t part);
 
+/// Why not: what is said of such a proof, after its name.
+inline constexpr const char* proof_cannot_be_cut =
+    "cannot be cut into parts, as it has a witness, is damaged, or is no regular file";
+
+/// If one word is about steps, and is steps=A..B or steps=A..: takes it out of those that are asked, and returns its
+/// value.
+std::optional<std::string> take_part(std::vector<std::string>& asked);
+
+/// Asks for the steps A..B or A.. instead of N, which is returned: 0 if the words do not say steps=N. To the end means
+/// as far as N at least: throws InputError if the proof has fewer.
+std::uint64_t ask_for_part(const std::string& steps, const std::filesystem::path& proof,
+                           std::vector<std::string>& asked);
+
 /// N of the one word steps=N; 0 if no word is about steps; nothing if they ask for something else, or twice.
 std::optional<std::uint64_t> asked_steps(const std::vector<std::string>& asked);
 
@@ -45,8 +58,8 @@ std::vector<std::string> words_of_parts(const CheckRequest& request, const std::
 /// Precondition: the last part was asked for with an open end, so that it comes to the end of the trajectory.
 std::optional<std::string> joined_words(const std::vector<std::string>& words, std::uint64_t least_steps);
 
-/// Has request.checkers look at a part of the steps each, at the same time. Returns what one checker would say if all of
-/// them accept. Otherwise returns nothing, and one checker should look at all steps.
+/// Has request.checkers look at a part of the steps each, at the same time. Returns what one checker would say if all
+/// of them accept. Otherwise returns nothing, and one checker should look at all steps.
 /// Precondition: request.proof.
 std::optional<CheckerVerdict> accepted_in_parts(const CheckRequest& request);
 

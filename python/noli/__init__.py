@@ -12,7 +12,7 @@ object wait for each other. Arrays that are being read must not be written to.
 
 from . import _programs as _programs
 from ._audit import Audit, Finding, audit_ccd, fuzz_queries
-from ._check import Checked, check
+from ._check import Checked, check, join_checks
 from ._core import commit as __commit__
 from ._core import version as __version__
 from ._errors import Contact, InputError, NoliError, NotProved, Stopped, UsageError, WriteError
@@ -69,6 +69,7 @@ __all__ = [
     "contacts",
     "edge_edge_contact",
     "fuzz_queries",
+    "join_checks",
     "largest_min_distance",
     "read_frames",
     "repair",

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from typing import NoReturn, Optional, Sequence
+from typing import NoReturn, Optional, Sequence, Union
 
 from . import _core
 from ._errors import InputError, NotProved, UsageError
@@ -85,15 +85,16 @@ def check(
     frames, mesh, order, obstacles
         As for ``noli.verify``. A generator can be read once.
     require : list of str
-        Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``); "steps=40..60"
-        looks at these steps alone. Default: frames in motion, all steps, every cell, no merged vertices, no least
-        distance, and nothing left out except what the mesh ignores.
+        Fields of the claim that is asked for, "distance=0.001" for example (``noli check --help``). "steps=40..60" looks
+        at these steps alone, "steps=40..40" at one, "steps=40.." at all from there on; "steps=40" asks for the first 40
+        at least. Default: frames in motion, all steps, every cell, no merged vertices, no least distance, and nothing
+        left out except what the mesh ignores.
     claim : path or dict
         All fields at once: ``Result.claim``, or the file of ``noli verify --claim-out``.
     verified : bool
         Asks noli_check_verified, whose soundness is proved in Coq.
     threads : int
-        So many checkers share the steps of a proof about frames in files; 0: as many as there are processors.
+        Number of checkers that share the steps; 0: one per processor. Frames in memory, and short proofs, use one.
     progress : callable, True or None
         As for ``noli.verify``.
 
@@ -114,12 +115,18 @@ def check(
     if not os.path.exists(proof):
         raise InputError(f"{proof}: does not exist; expected a proof")
     asked = words(require)
+    of_steps = [word for word in asked if word.split("=")[0] == "steps"]
+    part = of_steps[0] if len(of_steps) == 1 and ".." in of_steps[0] else None
+    if part is not None:
+        asked.remove(part)
     asked += [word for word in _fields(claim) if word.split("=")[0] not in {own.split("=")[0] for own in asked}]
     options: Json = {
         "order": choice(order, "order", ORDERS),
         "bodies": bodies_in_files(frames, obstacles),
         "threads": threads_of(threads),
     }
+    if part is not None:
+        options["part"] = part[len("steps=") :]
     names = file_names(frames)
     if names is None:
         refuse_options_of_files({"order": order})
@@ -132,6 +139,36 @@ def check(
     if checked.words.startswith(fault):
         raise UsageError(checked.words.splitlines()[0][len(fault) :])
     return checked
+
+
+def join_checks(answers: Sequence[Union[Checked, Json, Path]]) -> Checked:
+    """Joins the answers about all parts of a proof into one, as ``noli check --join`` does. Nothing is checked again.
+
+    Parameters
+    ----------
+    answers : list of Checked, dicts of ``Checked.to_json``, or files that ``noli check --json`` wrote
+        Each about a part: ``require=["steps=1..20"]``, the last one with an open end, ``require=["steps=21.."]``.
+
+    Returns
+    -------
+    Checked
+
+    Raises
+    ------
+    InputError
+        Unless all accept parts of one proof, asked for alike, that cover each of its steps once.
+    """
+    if isinstance(answers, (str, os.PathLike, dict, Checked)) or not answers:
+        raise UsageError("answers: expected a list of answers about parts")
+    return Checked(_core.Check.joined([_named(k, answer) for k, answer in enumerate(answers)]))
+
+
+def _named(k, answer):
+    """The name of an answer, for errors, and its text."""
+    if isinstance(answer, (str, os.PathLike)):
+        with open(answer, encoding="utf-8", errors="surrogateescape") as file:
+            return os.fspath(answer), file.read()
+    return f"answers[{k}]", json.dumps(answer.to_json() if isinstance(answer, Checked) else answer)
 
 
 def _fields(claim):

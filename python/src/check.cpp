@@ -15,14 +15,17 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
+#include "certify/proofs/check_parts.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
 #include "certify/proofs/prove_frames.h"
+#include "integrator/scene/json_text.h"
 #include "python/src/bindings.h"
 #include "python/src/frames.h"
 #include "python/src/options.h"
 #include "report/check_report.h"
 #include "report/documents.h"
+#include "report/joined_check.h"
 #include "trajectory/formats/frame_names.h"
 
 namespace noli::python {
@@ -47,16 +50,28 @@ class Check {
       name_files(frames.cast<std::vector<fs::path>>(), order_of(options));
     }
     put(options, "threads", checkers_);
+    std::optional<std::string> part;
+    put(options, "part", part);
+    if (part) checked_.least_steps = ask_for_part(*part, checked_.proof, checked_.asked);
     in_background([&](Background& background) {
       if (given_) given_->call_through(&background);
       ask(background, progress_to(progress, background));
     });
   }
 
+  /// (name, text of `json()`) of answers about parts.
+  static Check joined(const std::vector<std::pair<std::string, std::string>>& answers) {
+    std::vector<report::PartAnswer> parts;
+    for (const auto& [name, text] : answers) parts.push_back({name, integrator::parse_json(text, name)});
+    return Check(report::joined_check(parts));
+  }
+
   std::string json() const { return to_text(report::document("check", report::check_json(checked_))); }
   std::string text() const { return text_of(report::check_answer(checked_)); }
 
  private:
+  explicit Check(report::Checked checked) : checked_(std::move(checked)) {}
+
   /// What the mesh ignores is left out of the claim that is asked for, unless the words say what may be.
   void ask_for_ignored(const py::object& mesh) {
     const std::size_t vertices = given_->given()->mesh.vertex_count;
@@ -109,7 +124,7 @@ class Check {
     checked_.checker = version_of(which_);
   }
 
-  Checker which_;
+  Checker which_ = Checker::plain;
   int checkers_ = 0;
   std::vector<fs::path> files_;
   std::vector<BodyFrames> bodies_;
@@ -122,6 +137,7 @@ class Check {
 void bind_check(py::module_& core) {
   py::class_<Check>(core, "Check")
       .def(py::init<fs::path, const py::object&, std::vector<std::string>, bool, const py::dict&, const py::object&>())
+      .def_static("joined", &Check::joined)
       .def("json", &Check::json)
       .def("text", &Check::text);
   core.def("read_claim_file", &read_claim_file);

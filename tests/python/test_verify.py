@@ -181,6 +181,18 @@ class Verify(TestCase):
         self.assertEqual(several.to_json(), noli.check(proof, names, threads=1).to_json())
         self.assertEqual({work for work, _ in shares}, {"check"})
         self.assertTrue(all(0 <= share <= 1 for _, share in shares))
+        with self.assertRaisesRegex(noli.UsageError, "threads"):
+            noli.check(proof, names, threads=-1)
+        file = self.folder / "3.json"
+        parts = [noli.check(proof, names, require=[f"steps={steps}"]) for steps in ("21..", "1..3")]
+        file.write_text(json.dumps(noli.check(proof, names, require=["steps=4..20"]).to_json()))
+        joined = noli.join_checks([parts[0], parts[1].to_json(), file])
+        self.assertEqual(joined.words, several.words)
+        self.assertEqual(joined.claim, several.claim)
+        with self.assertRaisesRegex(noli.InputError, "answers.0.: begins with step 21, and no answer is about steps 4 to 20"):
+            noli.join_checks(parts)
+        with self.assertRaises(noli.UsageError):
+            noli.join_checks([])
         part = noli.check(proof, names, require=["steps=3..5"])
         self.assertEqual(part.verdict, "accepted")
         self.assertEqual(part.claim["part"]["first"], 3)

@@ -10,6 +10,8 @@
 #include "certify/proofs/check_parts.h"
 #include "tests/app/process.h"
 #include "tests/app/shards/shards_fixture.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/bytes.h"
 
 namespace noli::app_tests {
 namespace {
@@ -139,6 +141,14 @@ class JoinedAnswers : public CheckedParts {
   }
   std::string at(const std::string& name) const { return folder.path(name + ".json"); }
   static Process join(const Words& files) { return run_noli(joined({"check", "--join"}, files)); }
+  void expect_same_but_for_joining(const std::string& one, const std::string& all) const {
+    const Json whole = Json::parse(bytes_of(at(one)));
+    Json joined = Json::parse(bytes_of(at(all)));
+    EXPECT_GE(joined["joined"], 1);
+    joined.erase("joined");
+    joined["notes"].erase(joined["notes"].size() - 1);
+    EXPECT_EQ(joined, whole);
+  }
   static void expect_refused(const Words& files, const std::string& why) {
     const Process process = join(files);
     EXPECT_EQ(process.exit_code, 3) << why;
@@ -153,20 +163,15 @@ TEST_F(JoinedAnswers, AreThatOfOneChecker) {
   EXPECT_EQ(all.exit_code, 0) << all.err;
   EXPECT_EQ(all.verdict_line(), one.verdict_line());
   EXPECT_NE(all.out.find("joined from the answers about 3 parts; nothing was checked again"), std::string::npos);
-  const Json json = Json::parse(bytes_of(folder.path("all.json")));
-  const Json whole = Json::parse(bytes_of(folder.path("one.json")));
-  for (const auto& [member, value] : whole.items()) {
-    if (member == "notes") continue;
-    EXPECT_EQ(json[member], value) << member;
-  }
+  expect_same_but_for_joining("one", "all");
   // Steps that were chosen by hand are parts, too; a part may be all of the proof.
   EXPECT_EQ(join({answer("a", {"--steps", "1..2"}), answer("b", {"--steps", "3.."})}).exit_code, 0);
   EXPECT_EQ(join({answer("c", {"--shard", "1/1"})}).exit_code, 0);
 }
 
 TEST_F(JoinedAnswers, CoverEachStepOnce) {
-  expect_refused({at("2"), at("3")}, "are missing");
-  expect_refused({at("1"), at("3")}, "are missing");
+  expect_refused({at("2"), at("3")}, "and no answer is about step");
+  expect_refused({at("1"), at("3")}, "and no answer is about step");
   expect_refused({at("1"), at("2")}, "nothing says that this is the last one");
   expect_refused({at("1"), at("2"), at("2"), at("3")}, "expected each step once");
   expect_refused({at("1"), answer("b", {"--steps", "2.."})}, "expected each step once");
@@ -188,23 +193,90 @@ TEST_F(JoinedAnswers, AreAcceptedPartsAsCheckersSayThem) {
   ASSERT_EQ(check({"--json", folder.path("whole.json")}).exit_code, 0);
   expect_refused({at("whole")}, "is about all steps of a proof");
   ASSERT_EQ(check({"--steps", "1..9", "--json", folder.path("less.json")}).exit_code, 3);
-  expect_refused({at("less")}, "is rejected");
+  expect_refused({at("less")}, "is no acceptance: rejected");
   const auto refused = [&](const std::string& why, const std::function<void(Json&)>& change) {
     expect_refused({at("1"), changed("2", change), at("3")}, why);
   };
-  refused("is rejected", [](Json& json) { json["verdict"] = "rejected", json["words"] = "rejected: no"; });
+  refused("is no acceptance: refuted", [](Json& json) { json["verdict"] = "refuted", json["words"] = "refuted: no"; });
   refused("is not what noli check --json writes", [](Json& json) { json["schema"] = "noli-verify"; });
   refused("is not what noli check --json writes", [](Json& json) { json["version"] = 2; });
   refused("is not what noli check --json writes", [](Json& json) { json.erase("words"); });
   refused("is not what noli check --json writes", [](Json& json) { json["claim"] = nullptr; });
   refused("is not what noli check --json writes", [](Json& json) { json["claim"]["part"]["last"] = "x"; });
-  refused("do not fit together", [](Json& json) { json["words"] = json["words"].get<std::string>() + "more\n"; });
-  refused("do not fit together", [](Json& json) { json["words"] = "accepted: nothing touches"; });
+  refused("is not what noli check --json writes", [](Json& json) { json["claim"]["part"]["last"] = -1; });
+  refused("is not what noli check --json writes", [](Json& json) { json["asked"]["distance"] = 5; });
+  refused("is not what noli check --json writes", [](Json& json) { json["notes"] = 5; });
+  refused("does not fit together", [](Json& json) { json["words"] = json["words"].get<std::string>() + "more\n"; });
+  refused("does not fit together", [](Json& json) { json["words"] = "accepted: nothing touches"; });
   expect_refused({at("1"), folder.write("no.json", "{")}, "no.json");
   expect_refused({at("1"), folder.path("none.json")}, "none.json");
   expect_refused({at("1"), at("2"), at("3"), "--verified"}, "expected their files alone");
   expect_refused({at("1"), at("2"), at("3"), "--require", "steps=8"}, "expected their files alone");
+  expect_refused({at("1"), at("2"), at("3"), "--threads", "2"}, "expected their files alone");
   expect_refused({at("1"), at("2"), at("3"), "--steps", "1..2"}, "--steps");
+  expect_refused({at("1"), at("2"), at("3"), "--json", at("1")}, "1.json");
+}
+
+/// What a claim asks for beyond the proof is not lost on the way.
+TEST_F(JoinedAnswers, ReachAsFarAsWasAsked) {
+  const std::string claim = folder.path("claim.json");
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--claim-out", claim}, names)).exit_code, 0);
+  const Words of_claim = {"--claim", claim};
+  const auto ask = [&](const std::string& name, const Words& steps) { return answer(name, joined(of_claim, steps)); };
+  ASSERT_EQ(check(joined(of_claim, {"--json", folder.path("one.json")})).exit_code, 0);
+  const Words parts = {ask("a", {"--steps", "1..3"}), ask("b", {"--require", "steps=4.."})};
+  EXPECT_EQ(join(joined(parts, {"--json", folder.path("all.json")})).exit_code, 0);
+  expect_same_but_for_joining("one", "all");
+  expect_refused({parts[0], answer("c", {"--steps", "4.."})}, "asked for the default");
+  // Of a proof with fewer steps, no part with an open end is accepted.
+  names.resize(names.size() - 2);
+  ASSERT_EQ(run_noli(joined({"verify", "--no-check", "--force", "--proof", proof()}, names)).exit_code, 0);
+  ask("d", {"--steps", "1..3"});
+  for (const Words& open : {Words{"--steps", "4.."}, Words{"--require", "steps=4.."}}) {
+    const Process process = check(joined(of_claim, open));
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find("8 steps are asked for, and the proof has 6"), std::string::npos) << process.err;
+  }
+  const auto more = [](Json& json) { json["asked"]["steps"] = "4.."; };
+  ask("e", {"--steps", "4..6"});
+  expect_refused({at("d"), changed("e", more)}, "ends with step 6, and 8 steps were asked for");
+}
+
+/// Cuts a block file off behind so many of its groups.
+void keep_groups(const fs::path& file, int groups) {
+  const std::string bytes = bytes_of(file);
+  std::size_t at = block_format::file_header_size;
+  while (groups > 0 && at < bytes.size()) {
+    const auto kind = get<FourLetters>(bytes.data() + at);
+    at += block_format::block_header_size + get<std::uint64_t>(bytes.data() + at + sizeof kind) +
+          block_format::checksum_size;
+    if (kind == block_format::commit) --groups;
+  }
+  ASSERT_LT(at, bytes.size());
+  fs::resize_file(file, at);
+}
+
+/// Windows that are missing at the end of a run are noticed in parts, too.
+TEST_F(Shards, PartsOfARunReachItsLastWindow) {
+  const std::string run = folder.path("run"), cut = folder.path("cut");
+  ASSERT_EQ(run_noli({"simulate", folder.write("scene.json", two_cloths().dump()), "-o", run}).exit_code, 0);
+  fs::copy(run, cut, fs::copy_options::recursive);
+  keep_groups(fs::path(cut) / "trajectory.blocks", 3);
+  keep_groups(fs::path(cut) / "proof.blocks", 3);
+  const auto answer = [&](const std::string& folder_of_run, const std::string& steps, const std::string& name) {
+    return run_noli({"check", folder_of_run, "--require", "steps=" + steps, "--json", folder.path(name), "--force"});
+  };
+  EXPECT_EQ(answer(run, "1..1", "1.json").exit_code, 0);
+  EXPECT_EQ(answer(run, "2..", "2.json").exit_code, 0);
+  EXPECT_EQ(run_noli({"check", "--join", folder.path("1.json"), folder.path("2.json")}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", cut}).exit_code, 3);
+  EXPECT_EQ(answer(cut, "1..1", "3.json").exit_code, 0);
+  EXPECT_EQ(answer(cut, "2..", "4.json").exit_code, 3);
+  // The files of the run say nothing of its length.
+  const Process files = run_noli(
+      {"check", cut + "/proof.blocks", cut + "/trajectory.blocks", "--steps", "2..", "--json", folder.path("5.json")});
+  EXPECT_EQ(files.exit_code, 0) << files.err;
+  EXPECT_EQ(run_noli({"check", "--join", folder.path("3.json"), folder.path("5.json")}).exit_code, 3);
 }
 
 /// A claim of more steps than there are is not that of the steps that are there.
@@ -221,6 +293,17 @@ TEST_F(CheckedParts, ReachTheLastStepOfTheClaim) {
   EXPECT_EQ(check({"--claim", claim, "--shard", "2/2"}).exit_code, 3);
   EXPECT_EQ(check({"--claim", claim, "--steps", "5.."}).exit_code, 3);
   EXPECT_EQ(check({"--claim", claim, "--steps", "5..6"}).exit_code, 0);
+}
+
+TEST_F(Shards, AProofWithAWitnessIsNotCut) {
+  const std::string proof = folder.path("contact.noli"), claim = folder.path("claim.json");
+  const Words names = write_motion(4, {2});
+  ASSERT_EQ(run_noli(joined({"verify", "--proof", proof, "--claim-out", claim}, names)).exit_code, 1);
+  for (const Words& some : {Words{"--claim", claim, "--steps", "1.."}, Words{"--shard", "1/2"}}) {
+    const Process process = run_noli(joined(joined({"check", proof}, names), some));
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find("cannot be cut into parts, as it has a witness"), std::string::npos) << process.err;
+  }
 }
 
 /// Frames that are passed on to the checker end where one cannot be read; that is not where they end.
@@ -244,6 +327,9 @@ TEST_F(CheckedParts, OfSomeStepsAreNamedInTheVerdict) {
   EXPECT_NE(some.verdict_line().find("nothing touches; steps 3..4"), std::string::npos) << some.out;
   EXPECT_EQ(check({"--steps", "7.."}).exit_code, 0);
   EXPECT_EQ(check({"--steps", "7..9"}).exit_code, 3);
+  const Process none = check({"--steps", "9.."});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.out.find("Next: ask for steps that the proof has."), std::string::npos) << none.out;
   for (const char* const steps : {"3..x", "3", "", "..3", "3..2", "0..2", "3-4"}) {
     const Process wrong = check({"--steps", steps});
     EXPECT_EQ(wrong.exit_code, 3) << steps;
