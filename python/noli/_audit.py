@@ -14,7 +14,7 @@ from . import _core
 from ._errors import InputError, UsageError
 from ._queries import _points, contacts
 from ._options import LONGEST, distance, require_new, whole, words
-from ._types import CcdFunction, Floats, Path
+from ._types import CcdFunction, Floats, Json, Path
 from ._words import PAIRS, no_truth
 
 FAULTS = ("false_negative", "late", "bad_time", "false_positive", "early")
@@ -64,6 +64,13 @@ class Finding:
         number = int(np.flatnonzero(PAIRS == self.pair)[0])
         _core.save_query(os.fspath(file), number, self.x_t0, self.x_t1, self.kind != "apart", comments)
 
+    def to_json(self) -> Json:
+        """A dict of all attributes; NaN for no time becomes None, as does an infinite answer."""
+        found = {name: getattr(self, name) for name in ("fault", "pair", "kind", "generator", "index")}
+        found.update(time=_number_or_none(self.time), answer=_number_or_none(self.answer))
+        found.update(x_t0=self.x_t0.tolist(), x_t1=self.x_t1.tolist())
+        return found
+
     def __repr__(self):
         return f"<noli.Finding: {self.fault}, {self.pair} {self.kind}, t = {self.time}, answered {self.answer}>"
 
@@ -104,6 +111,37 @@ class Audit:
     def __repr__(self) -> str:
         found = ", ".join(f"{n} {fault}" for fault, n in self.faults.items() if n)
         return f"<noli.Audit: {self.verdict}, {self.asked} queries, {self.contacts} contacts{': ' + found if found else ''}>"
+
+    def to_json(self) -> Json:
+        """A dict: verdict, exact, asked, contacts, faults, findings (``Finding.to_json``)."""
+        return {
+            "verdict": self.verdict,
+            "exact": self.exact,
+            "asked": self.asked,
+            "contacts": self.contacts,
+            "faults": dict(self.faults),
+            "findings": [finding.to_json() for finding in self.findings],
+        }
+
+    def text(self) -> str:
+        """The first finding with its coordinates, then the verdict and how often each fault was found."""
+        lines = []
+        if self.findings:
+            first = self.findings[0]
+            lines.append(f"{first.pair}, {first.kind} at t = {first.time!r}: the function answered {first.answer!r} ({first.fault})")
+            lines += [f"  {name} = {getattr(first, name).tolist()!r}" for name in ("x_t0", "x_t1")]
+        found = ", ".join(f"{n} {fault}" for fault, n in self.faults.items() if n and self.counts(fault))
+        verdict = self.verdict.replace("_", " ").upper()
+        lines.append(f"{verdict}  {self.asked} queries, {self.contacts} contacts" + (f": {found}" if found else ""))
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def _repr_html_(self) -> str:
+        from ._notebook import html_of_audit
+
+        return html_of_audit(self)
 
     def _room(self, *alike: str) -> int:
         """For so many more findings that are alike."""
@@ -210,6 +248,11 @@ def fuzz_queries(
         once = {(f.pair, f.fault, f.x_t0.tobytes(), f.x_t1.tobytes()): f for f in reversed(simpler)}
         audit.findings = [f for f in simpler if once[f.pair, f.fault, f.x_t0.tobytes(), f.x_t1.tobytes()] is f]
     return audit
+
+
+def _number_or_none(value):
+    """Bool as it is; None for what JSON has no number for."""
+    return value if isinstance(value, bool) or np.isfinite(value) else None
 
 
 def _require_pair(pair):

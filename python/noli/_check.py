@@ -62,6 +62,11 @@ class Checked:
     def __repr__(self):
         return f"<noli.Checked: {self.text().splitlines()[-1]}>"
 
+    def _repr_html_(self) -> str:
+        from ._notebook import html_of_check
+
+        return html_of_check(self)
+
 
 def check(
     proof: Path,

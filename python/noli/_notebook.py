@@ -11,7 +11,8 @@ import tempfile
 from ._errors import NoliError
 
 GOOD, BAD, OPEN = "#1a7f37", "#b3261e", "#8a6d00"
-COLOURS = {"proved": GOOD, "no_contact": GOOD, "contact": BAD, "too_near": BAD, "cannot_be": BAD}
+COLOURS = dict.fromkeys(("proved", "no_contact", "accepted", "no_finding"), GOOD)
+COLOURS.update(dict.fromkeys(("contact", "too_near", "cannot_be", "refuted", "rejected", "finding"), BAD))
 MOST_ROWS = 10
 
 
@@ -34,6 +35,18 @@ def html_of_repair(repaired, *, with_page):
         for row in changed[:MOST_ROWS]
     ]
     return _join(_words(repaired), _table(columns, rows, len(changed)), _view(repaired) if with_page else "")
+
+
+def html_of_check(checked):
+    """The verdict on a proof."""
+    return _words(checked)
+
+
+def html_of_audit(audit):
+    """The verdict on a function, and its findings."""
+    columns = ("fault", "pair", "kind", "time", "answer")
+    rows = [(f.fault, f.pair, f.kind, f"{f.time:.6g}", f.answer) for f in audit.findings[:MOST_ROWS]]
+    return _join(_words(audit), _table(columns, rows, len(audit.findings)))
 
 
 def _join(*parts):

@@ -8,7 +8,7 @@ import json
 import os
 import re
 import tempfile
-from typing import NoReturn, Optional, Sequence, Tuple, Union
+from typing import List, NoReturn, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,6 +60,11 @@ class Repaired:
     def given_times(self) -> Integers:
         """Numbers of the rows of ``frames`` that are at the times of given frames."""
         return np.flatnonzero(self.times == np.floor(self.times))
+
+    @property
+    def changed(self) -> List[Json]:
+        """The steps that were changed, dicts: step (from 1), moved (vertices), largest and rms displacement, inserted."""
+        return self._json["changed"]
 
     def to_json(self) -> Json:
         """A dict, as ``noli repair --json`` writes it (``noli schema repair``): "changed" lists the steps that were.

@@ -205,7 +205,7 @@ class Certifier:
     x0 : (vertices, 2 or 3)
         Where the mesh begins.
     dimension : 2 or 3, optional
-        2 ignores z. Default: as many as ``x0`` has coordinates.
+        2 ignores z. Default: as many as ``x0`` has coordinates. In the plane, faces are filled: what is inside touches.
     threads, max_reports
         As for ``noli.verify``.
 
@@ -247,7 +247,9 @@ class Certifier:
         self._decide = None
 
     def step(self, x: ArrayLike) -> Impact:
-        """Goes on to x if straight lines from here to there touch nothing, and returns an Impact. Raises Contact."""
+        """Goes on to x if straight lines from here to there touch nothing. Raises Contact.
+
+        The Impact that it returns says so; a loop does not need it."""
         with self._lock:
             return self._step(positions(x, "x"))
 

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+import json
+
 import noli
 import numpy as np
 from support import TestCase, run_noli
@@ -42,6 +44,25 @@ class Audit(TestCase):
                 self.assertIn(fault, {finding.fault for finding in found.findings})
         for fault in ("false_positive", "early"):
             self.assertEqual(noli.fuzz_queries(faults[fault], count=3000).verdict, "no_finding")
+
+    def test_shows_itself(self):
+        found = noli.fuzz_queries(lambda pair, a, b: np.where(hits(pair, a, b), np.nan, np.inf), count=2000)
+        first = found.findings[0]
+        text = str(found)
+        self.assertTrue(text.splitlines()[-1].startswith("FINDING  2000 queries"))
+        self.assertIn(f"x_t0 = {first.x_t0.tolist()!r}", text)
+        self.assertIn("the function answered nan (false_negative)", text)
+        self.assertIn("<td>false_negative</td>", found._repr_html_())
+        same = json.loads(json.dumps(found.to_json(), allow_nan=False))
+        self.assertEqual(same["faults"], found.faults)
+        self.assertIsNone(same["findings"][0]["answer"])
+        self.assertTrue(np.array_equal(same["findings"][0]["x_t1"], first.x_t1))
+        none = noli.fuzz_queries(exact, count=200)
+        self.assertTrue(str(none).startswith("NO FINDING  200 queries"))
+        self.assertNotIn("<table", none._repr_html_())
+        self.assertEqual(none.to_json()["findings"], [])
+        # What does not count for the verdict is not told beside it.
+        self.assertNotIn("false_positive", str(noli.fuzz_queries(lambda pair, a, b: np.ones(len(a), bool), count=200)))
 
     def test_findings_are_made_simpler_and_saved(self):
         def blind(pair, a, b):  # to features that are parallel as they meet

@@ -159,7 +159,9 @@ class Verify(TestCase):
             self.assertEqual(noli.check(proof, iter(self.V[:4]), mesh, verified=verified).verdict, "accepted")
             self.assertEqual(noli.check(proof, self.V[:3], mesh, verified=verified).verdict, "rejected")
             self.assertEqual(noli.check(proof, self.V[:4] + 1, mesh, require=["distance=1"], verified=verified).verdict, "rejected")
-        self.assertEqual(noli.check(proof, self.V[:4], mesh, claim=result.claim).verdict, "accepted")
+        accepted = noli.check(proof, self.V[:4], mesh, claim=result.claim)
+        self.assertEqual(accepted.verdict, "accepted")
+        self.assertIn("ACCEPTED", accepted._repr_html_())
         with self.assertRaises(noli.NotProved):
             noli.check(proof, self.V[:3], mesh).raise_unless_accepted()
         with self.assertRaisesRegex(noli.UsageError, "require"):
