@@ -123,7 +123,8 @@ class Repaired {
       both.insert(both.end(), y.begin(), y.end());
       packer.add(times[k], both);
     }
-    std::string note = "The given motion is seen through; between its frames vertices move on straight lines.";
+    std::string note =
+        "The new motion is solid, the given one is seen through; between its frames vertices move on straight lines.";
     if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
     note += " Positions are rounded for the picture.";
     std::vector<double> ends;

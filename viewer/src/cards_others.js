@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Results of simulate, explain, check, ccd, info and reproduce.
+// Results of simulate, explain, repair, check, ccd, info and reproduce.
 import { bars, columnTable, fileName, fold, mustBeNone, note, paragraphs } from "./cards.js";
 import { number, pairName, words } from "./dom.js";
 import { describe, text } from "./generic.js";
@@ -55,6 +55,12 @@ function energySummary(energy) {
       ["of finite steps [J]", (e) => e.integration],
     ],
   );
+}
+
+function obstacleLine(obstacle) {
+  if (!obstacle) return null;
+  const pair = obstacle.names ? `: ${obstacle.names.join(" and ")}` : "";
+  return note(`In step ${number(obstacle.step)} at t = ${number(obstacle.time)} there is no way${pair}.`);
 }
 
 /** What a checker was asked, in the words of its claim. */
@@ -155,6 +161,40 @@ export const otherCards = {
             ]),
           )
         : null,
+    ],
+  },
+  "noli-repair": {
+    title: "A motion, mended",
+    figures: (r) => [
+      ["steps changed", `${number(r.changed.length)} of ${number(r.steps - r.steps_before)}`],
+      ["frames", r.frames],
+      ["inserted", r.inserted],
+      ["as given", r.as_given],
+      ["moved by at most", Math.max(0, ...r.changed.map((c) => c.largest))],
+      ["gap aimed at", r.thickness],
+      ["mean edge", r.mean_edge],
+      ["vertices", r.vertices],
+      ["fixed", r.fixed],
+    ],
+    body: (r) => [
+      obstacleLine(r.obstacle),
+      columnTable("Steps that were changed", r.changed, [
+        count("step"),
+        count("vertices moved", "moved"),
+        count("by at most", "largest"),
+        ["root mean square", (c) => c.rms],
+        ["moved most", (c) => `vertex ${number(c.vertex)}`],
+        count("frames inserted", "inserted"),
+        count("deepest layer", "deepest_layer"),
+      ]),
+      columnTable("Bodies", r.bodies, [
+        ["body", (b) => b.name],
+        ["moves", (b) => (b.still ? "stands still" : b.fixed ? "as given" : "as contact lets it")],
+        count("vertices"),
+        count("by at most", "largest"),
+        ["root mean square", (b) => b.rms],
+      ]),
+      paragraphs("Notes", r.notes),
     ],
   },
   "noli-check": {

@@ -73,7 +73,7 @@ function draw(plot, place, pick) {
     height,
     cursor: { drag: { x: !plot.points, y: false } },
     scales: scalesOf(plot),
-    axes: [axis(plot.x, 44, plot.logX, plot.bars), axis(plot.y, plot.log ? 64 : 84, plot.log)],
+    axes: [axis(plot.x, 44, plot.logX, plot.times.every(Number.isInteger)), axis(plot.y, plot.log ? 64 : 84, plot.log)],
     series: [{ label: plot.points ? "" : plot.x, value: value(plot.logX) }, ...seriesOf(plot)],
     legend: { live: !plot.points, show: !plot.bars },
     hooks: pick ? { ready: [(u) => u.over.addEventListener("click", () => pick(u.posToVal(u.cursor.left, "x")))] } : {},
