@@ -52,8 +52,8 @@ class Check {
     put(options, "threads", checkers_);
     std::optional<std::string> part;
     put(options, "part", part);
-    if (part) checked_.least_steps = ask_for_part(*part, checked_.proof, checked_.asked);
     in_background([&](Background& background) {
+      if (part) checked_.least_steps = ask_for_part(*part, checked_.proof, checked_.asked);
       if (given_) given_->call_through(&background);
       ask(background, progress_to(progress, background));
     });
