@@ -98,6 +98,7 @@ ExitCode run(RepairArguments& arguments) {
     request.frames = named_frames(std::move(request.frames));
   }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
+  if (request.run) inputs.push_back(*request.run);  // no output goes there
   if (request.ignore) inputs.push_back(*request.ignore);
   if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
   if (arguments.fixed_vertices) {
@@ -147,6 +148,11 @@ Command add_repair(CLI::App& app) {
                    "The gap to aim at; default: a quarter of the least height of cells")
       ->check(is_positive())
       ->type_name("DISTANCE");
+  command
+      ->add_option("--run", request.run,
+                   "Keep the motion as a run as well: a step is a window of one second, in which vertices move as "
+                   "contact moved them")
+      ->type_name("RUN");
   command->add_option("--proof", request.proof, "Write the proof about the new frames to this file")->type_name("OUT");
   command->add_flag_callback(
       "--no-check", [&request] { request.check = false; },

@@ -200,6 +200,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   Json json = {{"verdict", repair_verdict(outcome)}, {"end", name(outcome.end)}};
   json["pattern"] = request.pattern;
   json["times"] = outcome.times.string();
+  json["run"] = request.run ? Json(request.run->string()) : Json(nullptr);
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;

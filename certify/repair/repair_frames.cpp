@@ -18,6 +18,7 @@
 #include "certify/repair/excluded_pairs.h"
 #include "certify/repair/moving_vertices.h"
 #include "certify/repair/repaired_frames.h"
+#include "certify/repair/repaired_run.h"
 #include "certify/repair/spread.h"
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
@@ -79,6 +80,7 @@ class Repair {
     Mesh parts = fixed_parts(mesh_, fixed_, request.only_new);
     if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
     if (request.spread > 0) spread_.emplace(mesh_, fixed_, request.spread);
+    if (request.run) open_run(source.bodies());
     outcome.cells = mesh_.cell_count();
     outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
     outcome.thickness = contact_->greatest_bound();
@@ -92,10 +94,12 @@ class Repair {
     if (request_.only_new) leave_out_baseline();
     if (last) {
       x_ = std::move(last->positions);
+      if (run_) run_->go_on(last->step, x_);
       outcome_.steps = outcome_.steps_before = last->step;
       for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
     } else {
       require_free_start();
+      if (run_) run_->begin(request_.force || request_.resume);
       frames_.write(0, {sequence_.mesh(), x_}, true);
       frames_.commit();
     }
@@ -111,6 +115,7 @@ class Repair {
   /// Whatever is written stays.
   void finish() {
     frames_.finish(outcome_);
+    if (run_) run_->finish(name(outcome_.end));
     if (request_.thickness && *request_.thickness > outcome_.thickness) {
       outcome_.notes.push_back(
           fmt::format("--thickness {} is more than half of the least height of cells: it is {} at most",
@@ -122,6 +127,13 @@ class Repair {
           "materials or groups, and polygons are cut into triangles");
     }
     outcome_.by_body = changes_.by_body();
+    outcome_.straight_windows = run_ ? run_->straight() : 0;
+    if (outcome_.straight_windows > 0) {
+      outcome_.notes.push_back(
+          fmt::format("--run: in {} of the changed steps the run has the straight lines between the new frames, as the "
+                      "other motion touches when its times are rounded",
+                      outcome_.straight_windows));
+    }
   }
 
  private:
@@ -159,6 +171,47 @@ class Repair {
     if (!request_.progress || outcome_.steps_total == 0) return;
     const double done = static_cast<double>(outcome_.steps) + part;
     request_.progress("repair", std::min(1.0, done / static_cast<double>(outcome_.steps_total)));
+  }
+
+  void open_run(const std::vector<FrameBody>& bodies) {
+    if (request_.only_new) throw UsageError("--run: a run compares all cells; expected no --only-new");
+    require_folder_of_its_own(*request_.run);
+    RepairedScene scene;
+    scene.run = {{Dim, RecordMode::full, 1}, mesh_, std::vector<std::uint8_t>(mesh_.vertex_count, 0), {}};
+    if (groups_) scene.run.exclusions = groups_->exclusions;
+    scene.repair = frames_.fingerprint();
+    scene.document = {{"title", "Repair of " + std::filesystem::path(sequence_.name_t0()).filename().string()},
+                      {"dimension", Dim},
+                      {"duration", static_cast<double>(outcome_.steps_total)},
+                      {"window", 1.0},
+                      {"repair", {{"frames", request_.pattern}, {"sha256", hex(scene.repair)}}}};
+    scene.facts = {{"bodies", names_of_frames(bodies).to_json()}};
+    WindowOptions window;
+    window.dimension = Dim;
+    window.threads = request_.threads;
+    window.initial = false;
+    window.first_only = true;
+    window.exclusions = exclusions();
+    window.stop = request_.stop;
+    window.deadline = request_.deadline;
+    run_.emplace(*request_.run, std::move(scene), x_, window);
+    if (!request_.resume) run_->require_room(request_.force);
+  }
+
+  /// A run that is replaced must not be what is read, and frames need a folder without other files.
+  void require_folder_of_its_own(const std::filesystem::path& run) const {
+    const auto place = [](const std::filesystem::path& path) {
+      const auto canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+      return canonical.has_filename() ? canonical : canonical.parent_path();
+    };
+    const std::filesystem::path folder = place(run);
+    if (place(parse_pattern(request_.pattern).file(0)).parent_path() == folder) {
+      throw UsageError("--run " + run.string() + ": has the new frames; choose another folder");
+    }
+    for (const auto& frame : request_.frames) {
+      if (place(frame).parent_path() != folder || !is_file_of_run(frame.filename())) continue;
+      throw UsageError("--run " + run.string() + ": " + frame.string() + " is read; choose another folder");
+    }
   }
 
   // --- What cannot be ------------------------------------------------------------------------------------------------
@@ -227,7 +280,10 @@ class Repair {
       require_one_plane(sequence_.x_t0(), sequence_.x_t1(), sequence_.name_t1());
     }
     y_.assign(sequence_.x_t1().begin(), sequence_.x_t1().end());
-    if (!touches(x_, y_)) return accept(1, y_);
+    if (!touches(x_, y_)) {
+      if (run_) run_->add_straight(x_, y_);
+      return accept(1, y_);
+    }
     require_room_between_fixed();
     take_aim();
     Retries retries;
@@ -311,6 +367,7 @@ class Repair {
       from = std::move(to);
       if (at % (2 * length) == 0 && length < whole) length *= 2;
     }
+    if (run_ && !run_->add(moved, x_, times)) end_if(true);
     note_change(moved, times.size() - 1);
     for (const double t : times) accept(t, positions_at(moved, t));
     return true;
@@ -354,6 +411,7 @@ class Repair {
   std::optional<StepFilter<Dim>> filter_;
   std::optional<SequenceVerifier> verifier_;        ///< of the new frames
   std::optional<SequenceVerifier> fixed_verifier_;  ///< of what moves as given
+  std::optional<RepairedRun> run_;
 };
 
 /// Looks at all frames, and reads those of the first step. False if it was stopped.

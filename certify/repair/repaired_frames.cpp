@@ -66,7 +66,8 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       write_(frame_writer_of(request.pattern)),
       table_(files_beside_repaired(request.pattern)[0]),
       state_(files_beside_repaired(request.pattern)[1]),
-      state_text_(Json({{"noli_repair", 1}, {"of", fingerprint()}}).dump() + '\n'),
+      fingerprint_(find_fingerprint()),
+      state_text_(Json({{"noli_repair", 1}, {"of", hex(fingerprint_)}}).dump() + '\n'),
       resumes_(request.resume && is_there()),
       files_(request.pattern,
              request.force || resumes_ ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {
@@ -93,8 +94,7 @@ bool RepairedFrames::is_read(const std::filesystem::path& file) const {
   return std::ranges::any_of(read, [&](const auto& path) { return std::filesystem::equivalent(path, file, error); });
 }
 
-/// Threads, limits, the proof and the checker do not decide what is written.
-std::string RepairedFrames::fingerprint() const {
+Sha256Digest RepairedFrames::find_fingerprint() const {
   std::string text = fmt::format("{}\n{} {} {} {} {} {} {}\n", version_commit(), request_.pattern, request_.fixed_first,
                                  request_.restitution, request_.friction, request_.points,
                                  request_.thickness.value_or(0), request_.dimension.value_or(0));
@@ -112,7 +112,7 @@ std::string RepairedFrames::fingerprint() const {
   }
   Sha256 hash;
   hash.update(text);
-  return hex(hash.digest());
+  return hash.digest();
 }
 
 bool RepairedFrames::is_there() const {

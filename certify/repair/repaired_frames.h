@@ -17,6 +17,7 @@
 
 #include <noli/repair.h>
 #include "certify/frame_files.h"
+#include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_source.h"
 
 namespace noli {
@@ -36,6 +37,9 @@ class RepairedFrames {
   /// InputError for a frame of another mesh, or with other bytes than were written.
   std::optional<Last> begin(const Mesh& mesh);
 
+  /// Of all that decides what is written. Threads, limits, the proof and the checker do not.
+  const Sha256Digest& fingerprint() const { return fingerprint_; }
+
   /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and gets the bytes of its file if that has
   /// one frame in the format of the new ones. Throws std::system_error.
   void write(double time, const Frame& frame, bool given);
@@ -47,7 +51,7 @@ class RepairedFrames {
  private:
   bool has_own_file(std::size_t k) const;
   bool is_read(const std::filesystem::path& file) const;
-  std::string fingerprint() const;
+  Sha256Digest find_fingerprint() const;
   bool is_there() const;
   void keep_complete_steps(std::string& table, std::vector<double>& times);
   std::size_t count(std::string_view what) const;
@@ -56,6 +60,7 @@ class RepairedFrames {
   const FrameSource& source_;
   FrameWriter write_;
   std::filesystem::path table_, state_;
+  Sha256Digest fingerprint_;
   std::string state_text_;
   bool resumes_;
   FrameFiles files_;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <noli/errors.h>
@@ -74,7 +75,8 @@ void clear(const fs::path& folder) {
 }  // namespace
 
 /// Drops a "." or a slash at the end, which some operations on folders do not accept.
-RunFolder::RunFolder(const fs::path& path) : path_(path.lexically_normal()) {
+RunFolder::RunFolder(const fs::path& path, std::string option)
+    : path_(path.lexically_normal()), option_(std::move(option)) {
   if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
 }
 
@@ -84,24 +86,30 @@ void RunFolder::lock() {
   try {
     lock_.emplace(path_);
   } catch (const FolderLocked& locked) {
-    throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
+    throw UsageError(option_ + " " + locked.what() + "; expected another folder, or to wait for its end");
   } catch (const std::system_error& closed) {
-    throw UsageError("-o " + std::string(closed.what()) + "; expected a folder that may be read and written to");
+    throw UsageError(option_ + " " + closed.what() + "; expected a folder that may be read and written to");
   }
 }
 
 void RunFolder::make(bool force) {
   std::error_code error;
-  if (!fs::exists(fs::symlink_status(path_, error))) make_writable_folder(path_, "-o");
+  if (!fs::exists(fs::symlink_status(path_, error))) make_writable_folder(path_, option_);
   lock();
+  require_room(force);
+  require_writable_folder(path_.string(), option_);
+  clear(path_);
+}
+
+void RunFolder::require_room(bool force) const {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path_, error))) return;
   const bool empty = fs::is_directory(path_, error) && fs::is_empty(path_, error);
   if (!empty && !force) {
-    throw UsageError("-o " + path_.string() + ": exists already; expected a new folder, --resume or --force");
+    throw UsageError(option_ + " " + path_.string() + ": exists already; expected a new folder, --resume or --force");
   }
-  if (!is_run(path_))
-    throw UsageError("-o " + path_.string() + ": is not a run; expected a folder that may be replaced");
-  require_writable_folder(path_.string(), "-o");
-  clear(path_);
+  if (is_run(path_)) return;
+  throw UsageError(option_ + " " + path_.string() + ": is not a run; expected a folder that may be replaced");
 }
 
 void RunFolder::begin(const Json& scene, const Sha256Digest& model, const Json& facts) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <noli/frames.h>
@@ -30,7 +31,8 @@ struct CommittedWindows {
 
 class RunFolder {
  public:
-  explicit RunFolder(const std::filesystem::path& path);
+  /// `option`: the one that names the folder, for errors.
+  explicit RunFolder(const std::filesystem::path& path, std::string option = "-o");
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -40,6 +42,8 @@ class RunFolder {
   /// Creates and locks the folder. Throws UsageError when the name exists. With `force` it removes the files of an
   /// existing run first, and throws UsageError for anything else, or for a run that another process writes to.
   void make(bool force);
+  /// Throws what make() would throw, and changes nothing.
+  void require_room(bool force) const;
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
   /// begun: without a manifest it cannot be resumed. `model`: hash of the model made from the scene; `facts`: members
@@ -67,6 +71,7 @@ class RunFolder {
 
  private:
   std::filesystem::path path_;
+  std::string option_;
   std::optional<FolderLock> lock_;
   std::optional<RunLog> log_;
   bool log_has_begun_ = false;

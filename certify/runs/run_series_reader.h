@@ -2,8 +2,8 @@
 //
 // Reads a run for every command: one window at a time, with the checked row of its series.
 //
-// The state of a window belongs to the program that wrote it. A run of another program, or of an earlier version of
-// this one, has no rows: it can be read, but asking for a row is an error.
+// The state of a window belongs to the program that wrote it. A run of another program, of an earlier version of this
+// one, or of a repair has no rows: it can be read, but asking for a row is an error.
 #pragma once
 
 #include <filesystem>

@@ -65,6 +65,9 @@ struct RepairRequest {
   double friction = 0;       ///< Coulomb's coefficient
   /// What is moved takes its surroundings along, over about so many edges; 0: contact alone decides where vertices go.
   std::uint64_t spread = 0;
+  /// A folder in which the motion is kept as well, as a run: each step is a window of one second, in which vertices move
+  /// as contact moved them. Not with only_new.
+  std::optional<std::filesystem::path> run;
   std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes
   bool check = true;                           ///< the checker looks at it
   std::optional<std::chrono::steady_clock::time_point> deadline;
@@ -145,11 +148,14 @@ struct RepairOutcome {
   std::optional<VerifyOutcome> verified;  ///< what `noli verify` says of the new frames, if all are written
   std::vector<FrameFacts> inputs;         ///< the given files
   std::vector<RepairedFrame> written;     ///< by this call and those before it (resume), in the order of time
+  /// With a run: of its windows by this call, those that keep the straight lines between the new frames, since the other
+  /// motion, whose times are rounded, touches.
+  std::uint64_t straight_windows = 0;
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall clock
 };
 
-/// Throws InputError, UsageError (the pattern; options that do not go together), WriteError and std::system_error (the
+/// Throws InputError, UsageError (the pattern; the folder of the run; options that do not go together), WriteError and std::system_error (the
 /// disk), std::bad_alloc.
 RepairOutcome run_repair(const RepairRequest& request);
 

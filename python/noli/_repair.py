@@ -122,6 +122,7 @@ def repair(
     only_new: bool = False,
     points: bool = False,
     dimension: Optional[int] = None,
+    run: Optional[Path] = None,
     proof: Optional[Path] = None,
     check: bool = True,
     threads: int = 0,
@@ -146,6 +147,8 @@ def repair(
         Default: by area and length.
     restitution, friction, spread
         As ``noli repair`` has them.
+    run : str, optional
+        A folder in which the motion is kept as well, as contact made it: a run, in which a step takes one second.
     only_new, points, dimension, proof, check, threads, time_limit, force, progress
         As for ``noli.verify``.
     resume : bool
@@ -181,6 +184,8 @@ def repair(
     if resume and output is None:
         raise UsageError("resume: needs output=, the pattern of the earlier call")
     names = file_names(frames)
+    if run is not None:
+        options["run"] = os.fspath(run)
     if proof is not None:
         require_new(proof, force, names or ())
         options["proof"] = os.fspath(proof)

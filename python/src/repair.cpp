@@ -43,6 +43,7 @@ void put_options(const py::dict& options, RepairRequest& request) {
   put(options, "restitution", request.restitution);
   put(options, "friction", request.friction);
   put(options, "spread", request.spread);
+  put(options, "run", request.run);
   put(options, "proof", request.proof);
   put(options, "check", request.check);
   put(options, "force", request.force);

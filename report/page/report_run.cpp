@@ -9,6 +9,7 @@
 
 #include <noli/errors.h>
 #include "certify/not_compared.h"
+#include "certify/proofs/prove_run.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
@@ -45,19 +46,19 @@ class Run {
     const auto windows = static_cast<double>(std::max<std::uint64_t>(reader_.look().windows, 1));
     while (const auto window = reader_.next_window()) {
       add(*window);
-      if (limits_.progress) limits_.progress(std::min(1.0, static_cast<double>(rows_.size()) / windows));
+      if (limits_.progress) limits_.progress(std::min(1.0, static_cast<double>(ends_.size()) / windows));
       stop_if_interrupted(path_);
     }
     report.page["title"] = title_of(path_);
     // Without a window nothing was decided, however the run ended.
-    const bool nothing = rows_.empty() && log_.last_end == "done";
+    const bool nothing = ends_.empty() && log_.last_end == "done";
     take_word(nothing ? "undecided" : word_of_end(log_.last_end, log_.going_on), report);
     add_lines(report.page["verdict"]["lines"]);
     if (log_.going_on) add_caveat("The run has not ended, or was killed.", report);
     if (reader_.open_window()) add_caveat("A window that was never committed follows; it is left out.", report);
     report.page["facts"] = facts();
-    if (rows_.empty()) return;  // nothing moves
-    report.page["plots"] = report_plots(rows_);
+    if (ends_.empty()) return;  // nothing moves
+    if (!rows_.empty()) report.page["plots"] = report_plots(rows_);
     report.page["focus"] = focus();
     PackedFrames frames = packer_.pack();  // before scene(), which tells how many frames are left
     put_scene(scene(), std::move(frames), report);
@@ -67,7 +68,8 @@ class Run {
   bool full() const { return reader_.header().record == RecordMode::full; }
 
   void add(const RunWindow& window) {
-    rows_.push_back(reader_.row());
+    breakpoints_ += window.breakpoints;
+    if (!window.state.empty()) rows_.push_back(reader_.row());
     ends_.push_back(window.end);
     if (window.index == 0) begin_ = window.begin;
     for (const RunFrame& frame : window.frames) {
@@ -85,18 +87,21 @@ class Run {
   }
 
   void add_lines(Json& lines) const {
-    lines.push_back(rows_.empty() ? "No window was committed: nothing is claimed." : claim());
+    lines.push_back(ends_.empty() ? "No window was committed: nothing is claimed." : claim());
     if (const std::string end = end_line(); !end.empty()) lines.push_back(end);
-    if (rows_.empty()) return;
-    lines.push_back(full()
-                        ? "The motion is recorded whole: noli verify decides it again, noli check checks its proof."
-                        : "The run recorded frames and the hash of its motion: noli verify --reproduce integrates and "
-                          "decides it again.");
+    if (ends_.empty()) return;
+    lines.push_back(full() ? "The motion is recorded whole: noli verify decides it again" + proof_clause()
+                           : "The run recorded frames and the hash of its motion: noli verify --reproduce integrates "
+                             "and decides it again.");
+  }
+
+  std::string proof_clause() const {
+    return std::filesystem::exists(proof_path(path_)) ? ", noli check checks its proof." : ".";
   }
 
   std::string claim() const {
     const std::string where =
-        fmt::format("in the {} windows of this run, from {} s to {} s", rows_.size(), begin_, ends_.back());
+        fmt::format("in the {} windows of this run, from {} s to {} s", ends_.size(), begin_, ends_.back());
     const NotCompared left_out =
         not_compared(reader_.mesh(), reader_.scene().labels, reader_.scene().exclusions, log_.names);
     return nothing_touches(left_out, where) + " Each window was decided in exact arithmetic before it was written.";
@@ -106,7 +111,7 @@ class Run {
   std::string end_line() const {
     const std::string what = what_ended(log_);
     const std::string named = what.empty() ? "" : ": " + on_one_line(what);
-    const std::string in_it = rows_.empty() ? "In the first window " : "In the window after them ";
+    const std::string in_it = ends_.empty() ? "In the first window " : "In the window after them ";
     if (log_.last_end == "contact") return in_it + "something touches, so it is not in the run" + named + ".";
     if (log_.last_end == "too_near") {
       return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
@@ -117,19 +122,16 @@ class Run {
   }
 
   Json facts() const {
-    std::uint64_t events = 0, breakpoints = 0;
-    for (const SeriesRow& row : rows_) {
-      events += row.events_in_all();
-      breakpoints += row.breakpoints;
-    }
+    std::uint64_t events = 0;
+    for (const SeriesRow& row : rows_) events += row.events_in_all();
     const Mesh& mesh = reader_.mesh();
     Json facts = Json::array();
     const auto add = [&](const std::string& name, const std::string& text) { facts.push_back({name, text}); };
     add("Mesh", fmt::format("{} vertices, {} faces, {} loose edges, {} loose points", mesh.vertex_count,
                             mesh.faces.size(), mesh.edges.size(), mesh.points.size()));
-    add("Windows", rows_.empty() ? "none" : fmt::format("{}, up to {} s", rows_.size(), ends_.back()));
-    add("Events", fmt::format("{}", events));
-    add("Breakpoints", fmt::format("{}", breakpoints));
+    add("Windows", ends_.empty() ? "none" : fmt::format("{}, up to {} s", ends_.size(), ends_.back()));
+    if (!rows_.empty()) add("Events", fmt::format("{}", events));
+    add("Breakpoints", fmt::format("{}", breakpoints_));
     add("Ended", log_.end().empty() ? "its log does not say how" : log_.end());
     if (!log_.roll_backs.empty()) add("Windows that were run again", fmt::format("{}", log_.roll_backs.size()));
     if (const ActingLayer nearest = nearest_layer(); nearest.layer > 0) {
@@ -192,9 +194,10 @@ class Run {
   LogFacts log_;
   SeriesReader reader_;
   MotionPacker packer_;
-  std::vector<SeriesRow> rows_;
+  std::vector<SeriesRow> rows_;  ///< none of a repair
   std::vector<double> ends_;
   double begin_ = 0;
+  std::uint64_t breakpoints_ = 0;
 };
 
 }  // namespace

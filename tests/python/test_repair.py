@@ -59,6 +59,16 @@ class Repair(TestCase):
         again = noli.repair(self.V, self.mesh, output=pattern, force=True)
         self.assertTrue(np.array_equal(again.frames, found.frames))
 
+    def test_run(self):
+        run = self.folder / "run"
+        found = noli.repair(self.V, self.mesh, run=run)
+        self.assertEqual(found.to_json()["run"], str(run))
+        kept = noli.verify(run)
+        self.assertEqual((kept.verdict, kept.to_json()["steps"]), ("proved", len(self.V) - 1))
+        with self.assertRaisesRegex(noli.UsageError, "exists already"):
+            noli.repair(self.V, self.mesh, run=run)
+        noli.repair(self.V, self.mesh, run=run, force=True)
+
     def test_report(self):
         found = noli.repair(self.V, self.mesh, output=self.folder / "out" / "f%03d.ply")
         try:

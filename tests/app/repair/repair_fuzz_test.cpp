@@ -55,7 +55,10 @@ class RepairFuzz : public testing::Test {
                                       "--fixed-first",
                                       std::to_string(fixed)};
     for (const auto& frame : frames) words.push_back(frame.string());
-    const Process process = run_noli(words);
+    const std::string run = (in / "run").string();
+    std::vector<std::string> with_run = words;
+    with_run.insert(with_run.end(), {"--run", run});
+    const Process process = run_noli(with_run);
     const nlohmann::json json = nlohmann::json::parse(process.out, nullptr, false);
     if (json.is_discarded()) {
       ADD_FAILURE() << number << ": " << process.exit_code << process.err;
@@ -63,6 +66,9 @@ class RepairFuzz : public testing::Test {
     }
     const audit::MotionTruth truth = audit::truth_of(motion);
     const std::string end = json["end"];
+    if (end == "done" && json["verdict"] == "proved") {
+      EXPECT_EQ(run_noli({"verify", run, "--no-check"}).exit_code, 0) << number;
+    }
     if (!truth.contact) {
       EXPECT_EQ(json["copied"], frames.size()) << number << ": " << json.dump();
       EXPECT_EQ(json["verdict"], "proved") << number;
