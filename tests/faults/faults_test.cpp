@@ -51,6 +51,7 @@ const std::vector<Command>& commands() {
       {"Simulate", {"simulate", "IN/scene.json", "-o", "OUT/run"}},
       {"SimulateFrames", {"simulate", "IN/frames.json", "-o", "OUT/run"}},
       {"Resume", {"simulate", "IN/scene.json", "-o", "OUT/run", "--resume"}, "noli", "half"},
+      {"Repair", {"repair", "IN/a.obj", "IN/c.obj", "-o", "OUT/%d.obj", "--run", "OUT/run", "--json", "OUT/a.json"}},
       {"ExplainScene", {"explain", "IN/scene.json", "--json", "OUT/a.json"}},
       {"ExplainRun", {"explain", "IN/run", "--json", "OUT/a.json"}},
       {"Export", {"export", "IN/run", "--fps", "50", "-o", "OUT/frames/%02d.obj"}},
@@ -206,16 +207,24 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
   /// Expects that a run cut short by a fault resumes to the same bytes. Most faults leave what others left, which is
   /// tried once.
   void expect_goes_on(const Outcome& whole) {
-    const std::string run = out_path("now/run");
-    const bool there = fs::exists(run);
+    const bool there = fs::exists(out_path("now/run"));
     if (!resumed_.insert(there ? left_over() : "nothing").second) return;
-    const Process process = run_noli({"simulate", words()[1], "-o", run, there ? "--resume" : "--force"});
+    const Process process = run_noli(words_to_go_on(there));
     ASSERT_EQ(process.exit_code, 0) << process.err;
-    for (const char* name : {"trajectory.blocks", "proof.blocks"}) {
-      const auto found = whole.files.find(std::string("run/") + name);
-      if (found == whole.files.end()) continue;
-      EXPECT_TRUE(bytes_of(fs::path(run) / name) == found->second) << name;
+    for (const auto& [name, bytes] : whole.files) {
+      const bool kept = name.ends_with(".blocks") || name.ends_with(".obj") || name.ends_with(".csv");
+      if (!kept) continue;
+      EXPECT_TRUE(bytes_of(out_path("now/" + name)) == bytes) << name;
     }
+  }
+
+  /// `there`: the run.
+  std::vector<std::string> words_to_go_on(bool there) const {
+    const std::vector<std::string> all = words();
+    if (all[0] == "simulate") return {all[0], all[1], "-o", out_path("now/run"), there ? "--resume" : "--force"};
+    std::vector<std::string> again(all.begin(), std::ranges::find(all, "--json"));
+    again.emplace_back("--resume");
+    return again;
   }
 
   /// Expects that the same command does what a fault left undone.
