@@ -18,17 +18,6 @@ namespace fs = std::filesystem;
   throw UsageError(output.option + " " + output.path.string() + ": " + problem);
 }
 
-/// Where a path leads, with all symbolic links followed, also when there is no file at the end.
-fs::path place_of(fs::path path) {
-  std::error_code error;
-  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links) {
-    const fs::path to = fs::read_symlink(path, error);
-    path = to.is_absolute() ? to : path.parent_path() / to;
-  }
-  const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? path : place;
-}
-
 /// By name, or by device and inode.
 bool one_file(const fs::path& a, const fs::path& b) {
   std::error_code error;

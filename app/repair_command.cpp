@@ -37,6 +37,7 @@ constexpr const char* repair_footer =
     "Examples:\n"
     "  noli repair 'cloth_*.obj' -o mended/cloth_%03d.obj\n"
     "  noli repair frames -o mended/%04d.ply --proof mended.noli\n"
+    "  noli repair frames -o mended/%04d.ply --run mended.run    also the motion between the new frames\n"
     "  noli repair start.obj target.obj -o out/%03d.obj --fixed-first 835    these move as given\n"
     "  noli repair --body shirt='shirt_*.obj' --body man='man_*.obj' --fixed man -o out/%03d.ply\n";
 
@@ -98,7 +99,7 @@ ExitCode run(RepairArguments& arguments) {
     request.frames = named_frames(std::move(request.frames));
   }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
-  if (request.run) inputs.push_back(*request.run);  // no output goes there
+  if (request.run) inputs.push_back(*request.run);  // no output is one of its files
   if (request.ignore) inputs.push_back(*request.ignore);
   if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
   if (arguments.fixed_vertices) {
@@ -150,8 +151,7 @@ Command add_repair(CLI::App& app) {
       ->type_name("DISTANCE");
   command
       ->add_option("--run", request.run,
-                   "Keep the motion as a run as well: a step is a window of one second, in which vertices move as "
-                   "contact moved them")
+                   "Also keep the motion as contact made it: a run, in which a step is a window of one second")
       ->type_name("RUN");
   command->add_option("--proof", request.proof, "Write the proof about the new frames to this file")->type_name("OUT");
   command->add_flag_callback(

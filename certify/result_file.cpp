@@ -176,4 +176,15 @@ void require_writable_folder(const std::string& folder, const std::string& optio
                    "; expected a folder that may be written to, or a place for one");
 }
 
+std::filesystem::path place_of(std::filesystem::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(path, error); ++links) {
+    const std::filesystem::path to = std::filesystem::read_symlink(path, error);
+    path = to.is_absolute() ? to : path.parent_path() / to;
+  }
+  const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  if (error) return path;
+  return place.has_filename() ? place : place.parent_path();  // without a slash at the end
+}
+
 }  // namespace noli

@@ -13,6 +13,9 @@ namespace noli {
 /// without write permission), a device or a pipe is written in place. Throws WriteError.
 void write_result(const std::string& path, const std::string& text);
 
+/// Where a path leads, with all symbolic links followed, also when there is no file at the end.
+std::filesystem::path place_of(std::filesystem::path path);
+
 /// Writes all of it to an open file. False, with errno, when that fails.
 bool write_all(int descriptor, const std::string& text);
 

@@ -104,8 +104,7 @@ constexpr std::size_t most_steps = 12;
 /// The table of the first steps, and what stands below it.
 void put_steps(const RepairOutcome& outcome, Answer& answer) {
   if (outcome.changed.empty()) {
-    const bool all = outcome.end == RepairEnd::done && outcome.steps_before == 0;
-    if (all) answer.text += "No step touches; all frames are as given.\n";
+    if (outcome.end == RepairEnd::done) answer.text += "No step touches; all frames are as given.\n";
     return;
   }
   const std::size_t shown = std::min(most_steps, outcome.changed.size());
@@ -144,8 +143,7 @@ std::string repair_place(const RepairOutcome& outcome) {
   switch (outcome.end) {
     case RepairEnd::done:
       return fmt::format("{} frames ({} inserted, {} as given), {} of {} steps changed: {}", outcome.frames,
-                         outcome.inserted, outcome.as_given, outcome.changed.size(),
-                         outcome.steps_total - outcome.steps_before, settled());
+                         outcome.inserted, outcome.as_given, outcome.changed.size(), outcome.steps_total, settled());
     case RepairEnd::start_touches: return at() + ": they touch from the beginning";
     case RepairEnd::blocked: return at() + ": both move as given";
     case RepairEnd::undecided:
@@ -200,7 +198,7 @@ Json repair_json(const RepairRequest& request, const RepairOutcome& outcome) {
   Json json = {{"verdict", repair_verdict(outcome)}, {"end", name(outcome.end)}};
   json["pattern"] = request.pattern;
   json["times"] = outcome.times.string();
-  json["run"] = request.run ? Json(request.run->string()) : Json(nullptr);
+  json["run"] = outcome.run_begun ? Json(request.run->string()) : Json(nullptr);
   json["dimension"] = outcome.dimension;
   json["vertices"] = outcome.vertices;
   json["cells"] = outcome.cells;
@@ -245,8 +243,7 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
                 {"end", "steps", "steps_total", "frames", "inserted", "copied", "changed", "thickness"});
   for (const std::string& note : outcome.notes) answer.text += fmt::format("Note: {}.\n", on_one_line(note));
   if (outcome.steps_before > 0) {
-    answer.text += fmt::format("Earlier calls repaired {} of {} steps; they are not listed.\n", outcome.steps_before,
-                               outcome.steps_total);
+    answer.text += fmt::format("Earlier calls repaired {} of {} steps.\n", outcome.steps_before, outcome.steps_total);
   }
   if (outcome.end != RepairEnd::start_touches && outcome.thickness > 0) {
     put_steps(outcome, answer);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Counts how far a repair has moved vertices from where they were given.
+// Counts how far a repair has moved vertices from where they were given. Each changed step is also a line of text, from
+// which a call that resumes the repair knows it.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <noli/repair.h>
@@ -24,7 +26,17 @@ class Distances {
     vertex_ = v;
   }
 
+  /// As many more, the sum of whose squares is given.
+  void add(std::uint64_t moved, double squares, double largest, VertexId vertex) {
+    moved_ += moved;
+    squares_ += squares;
+    if (largest <= largest_) return;
+    largest_ = largest;
+    vertex_ = vertex;
+  }
+
   std::uint64_t moved() const { return moved_; }
+  double squares() const { return squares_; }  ///< their sum
   double largest() const { return largest_; }
   VertexId vertex() const { return vertex_; }  ///< with the largest
   double root_mean_square() const { return moved_ == 0 ? 0 : std::sqrt(squares_ / static_cast<double>(moved_)); }
@@ -42,36 +54,24 @@ class Changes {
   Changes(std::vector<FrameBody> bodies, std::span<const std::uint8_t> fixed)
       : bodies_(std::move(bodies)), fixed_(fixed), of_body_(bodies_.size()) {}
 
-  /// A step that ends at x where y was given.
-  Distances add(std::span<const Position> x, std::span<const Position> y) {
-    Distances step;
-    std::size_t body = 0;
-    for (VertexId v = 0; v < x.size(); ++v) {
-      double square = 0;
-      for (std::size_t k = 0; k < 3; ++k) square += (x[v][k] - y[v][k]) * (x[v][k] - y[v][k]);
-      const double distance = std::sqrt(square);
-      if (!(distance > 0)) continue;
-      step.add(v, distance);
-      while (body < bodies_.size() && v - bodies_[body].first_vertex >= bodies_[body].vertices) ++body;
-      if (body < bodies_.size()) of_body_[body].add(v, distance);
-    }
-    return step;
-  }
+  /// A step that ends at x where y was given; distances of `step` are filled in. `momentum`: into fixed vertices.
+  /// Returns its line.
+  std::string add(RepairedStep step, const Position& momentum, std::span<const Position> x,
+                  std::span<const Position> y);
+  /// The step of a line. Throws std::invalid_argument.
+  void add_line(const std::string& line);
 
-  std::vector<RepairedBody> by_body() const {
-    std::vector<RepairedBody> all;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Distances& d = of_body_[i];
-      const auto body = fixed_.subspan(bodies_[i].first_vertex, bodies_[i].vertices);
-      const bool fixed = std::ranges::all_of(body, [](std::uint8_t of) { return of != 0; });
-      all.push_back({bodies_[i].name, fixed, d.moved(), d.largest(), d.root_mean_square()});
-    }
-    return all;
-  }
+  const std::vector<RepairedStep>& steps() const { return steps_; }
+  const Position& momentum_into_fixed() const { return momentum_; }
+  std::vector<RepairedBody> by_body() const;
 
  private:
+  void add(const RepairedStep& step, const Position& momentum, const std::vector<Distances>& of_body);
+
   std::vector<FrameBody> bodies_;
   std::span<const std::uint8_t> fixed_;
+  std::vector<RepairedStep> steps_;
+  Position momentum_{};
   std::vector<Distances> of_body_;
 };
 

@@ -23,8 +23,10 @@
 #include "certify/repair/step_contact.h"
 #include "certify/repair/step_filter.h"
 #include "certify/repair/verify_repaired.h"
+#include "certify/result_file.h"
 #include "certify/simulate/retries.h"
 #include "certify/stopwatch.h"
+#include "trajectory/blocks/run_checks.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/frame_order.h"
 #include "trajectory/formats/frame_sequence.h"
@@ -80,7 +82,7 @@ class Repair {
     Mesh parts = fixed_parts(mesh_, fixed_, request.only_new);
     if (parts.cell_count() > 1) fixed_verifier_.emplace(std::move(parts), options(false, false));
     if (request.spread > 0) spread_.emplace(mesh_, fixed_, request.spread);
-    if (request.run) open_run(source.bodies());
+    if (request.run) prepare_run(source.bodies());
     outcome.cells = mesh_.cell_count();
     outcome.fixed = static_cast<std::uint64_t>(std::ranges::count(fixed_, 1));
     outcome.thickness = contact_->greatest_bound();
@@ -90,16 +92,19 @@ class Repair {
   /// Throws Ended, Stopped.
   void operator()() {
     bool more = true;
-    auto last = frames_.begin(sequence_.mesh());
+    auto last = frames_.last(sequence_.mesh());
     if (request_.only_new) leave_out_baseline();
     if (last) {
       x_ = std::move(last->positions);
-      if (run_) run_->go_on(last->step, x_);
       outcome_.steps = outcome_.steps_before = last->step;
+      for (const std::string& line : last->changed) changes_.add_line(line);
+      if (run_ && !run_->go_on(last->step, x_, stop_)) end_if(true);
+      frames_.begin();
       for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
     } else {
       require_free_start();
-      if (run_) run_->begin(request_.force || request_.resume);
+      if (run_) run_->begin(request_.force, request_.resume);
+      frames_.begin();
       frames_.write(0, {sequence_.mesh(), x_}, true);
       frames_.commit();
     }
@@ -115,7 +120,8 @@ class Repair {
   /// Whatever is written stays.
   void finish() {
     frames_.finish(outcome_);
-    if (run_) run_->finish(name(outcome_.end));
+    if (run_) run_->finish(end_of_run(outcome_.end), stop_);
+    outcome_.run_begun = run_ && run_->has_begun();
     if (request_.thickness && *request_.thickness > outcome_.thickness) {
       outcome_.notes.push_back(
           fmt::format("--thickness {} is more than half of the least height of cells: it is {} at most",
@@ -126,12 +132,14 @@ class Repair {
           "frames that are not copies have vertices, faces, edges and points alone: no texture coordinates, "
           "materials or groups, and polygons are cut into triangles");
     }
+    outcome_.changed = changes_.steps();
+    outcome_.momentum_into_fixed = changes_.momentum_into_fixed();
     outcome_.by_body = changes_.by_body();
-    outcome_.straight_windows = run_ ? run_->straight() : 0;
+    outcome_.straight_windows = run_ ? run_->straight_windows() : 0;
     if (outcome_.straight_windows > 0) {
       outcome_.notes.push_back(
-          fmt::format("--run: in {} of the changed steps the run has the straight lines between the new frames, as the "
-                      "other motion touches when its times are rounded",
+          fmt::format("--run: {} windows that this call wrote have the straight lines between the new frames, as the "
+                      "motion that was filtered touches once its times are rounded",
                       outcome_.straight_windows));
     }
   }
@@ -173,19 +181,19 @@ class Repair {
     request_.progress("repair", std::min(1.0, done / static_cast<double>(outcome_.steps_total)));
   }
 
-  void open_run(const std::vector<FrameBody>& bodies) {
-    if (request_.only_new) throw UsageError("--run: a run compares all cells; expected no --only-new");
-    require_folder_of_its_own(*request_.run);
+  void prepare_run(const std::vector<FrameBody>& bodies) {
+    if (request_.only_new) {
+      throw UsageError("--run: cannot be combined with --only-new, as a run has no cells that may go on intersecting");
+    }
+    require_place_for(*request_.run);
     RepairedScene scene;
     scene.run = {{Dim, RecordMode::full, 1}, mesh_, std::vector<std::uint8_t>(mesh_.vertex_count, 0), {}};
     if (groups_) scene.run.exclusions = groups_->exclusions;
-    scene.repair = frames_.fingerprint();
-    scene.document = {{"title", "Repair of " + std::filesystem::path(sequence_.name_t0()).filename().string()},
-                      {"dimension", Dim},
-                      {"duration", static_cast<double>(outcome_.steps_total)},
-                      {"window", 1.0},
-                      {"repair", {{"frames", request_.pattern}, {"sha256", hex(scene.repair)}}}};
-    scene.facts = {{"bodies", names_of_frames(bodies).to_json()}};
+    scene.title = "Repair of " + std::filesystem::path(sequence_.name_t0()).filename().string();
+    scene.pattern = request_.pattern;
+    scene.steps = outcome_.steps_total;
+    scene.fingerprint = frames_.fingerprint();
+    scene.bodies = names_of_frames(bodies).to_json();
     WindowOptions window;
     window.dimension = Dim;
     window.threads = request_.threads;
@@ -198,21 +206,21 @@ class Repair {
     if (!request_.resume) run_->require_room(request_.force);
   }
 
-  /// A run that is replaced must not be what is read, and frames need a folder without other files.
-  void require_folder_of_its_own(const std::filesystem::path& run) const {
-    const auto place = [](const std::filesystem::path& path) {
-      const auto canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
-      return canonical.has_filename() ? canonical : canonical.parent_path();
-    };
-    const std::filesystem::path folder = place(run);
-    if (place(parse_pattern(request_.pattern).file(0)).parent_path() == folder) {
-      throw UsageError("--run " + run.string() + ": has the new frames; choose another folder");
+  /// A folder with a run is read as that, and not as frames; and a run that is replaced must not be what is read.
+  void require_place_for(const std::filesystem::path& run) const {
+    const std::filesystem::path folder = place_of(run);
+    if (place_of(parse_pattern(request_.pattern).file(0)).parent_path() == folder) {
+      throw UsageError("--run " + run.string() + ": the new frames go there; choose another folder");
     }
     for (const auto& frame : request_.frames) {
-      if (place(frame).parent_path() != folder || !is_file_of_run(frame.filename())) continue;
+      const std::filesystem::path there = place_of(frame);
+      if (there.parent_path() != folder || !is_file_of_run(there.filename())) continue;
       throw UsageError("--run " + run.string() + ": " + frame.string() + " is read; choose another folder");
     }
   }
+
+  /// Why the repair ended, as the log of a run has it.
+  static const char* end_of_run(RepairEnd end) { return end == RepairEnd::out_of_time ? "time_limit" : name(end); }
 
   // --- What cannot be ------------------------------------------------------------------------------------------------
 
@@ -380,16 +388,17 @@ class Repair {
   }
 
   void note_change(const FilteredStep& moved, std::size_t inserted) {
-    const Distances distances = changes_.add(moved.end, y_);
-    outcome_.changed.push_back({number(), inserted, distances.moved(), distances.largest(),
-                                distances.root_mean_square(), distances.vertex(), moved.deepest});
-    for (std::size_t k = 0; k < 3; ++k) outcome_.momentum_into_fixed[k] += moved.momentum_into_fixed[k];
+    RepairedStep step;
+    step.step = number();
+    step.inserted = inserted;
+    step.deepest = moved.deepest;
+    frames_.add_changed(changes_.add(step, moved.momentum_into_fixed, moved.end, y_));
   }
 
   /// The motion up to this time of the step has been decided.
   void accept(double t, std::vector<Position> x) {
     x_ = std::move(x);
-    frames_.write(static_cast<double>(sequence_.step()) + t, {sequence_.mesh(), x_}, t == 1 && x_ == y_);
+    frames_.write(static_cast<double>(sequence_.step()) + t, {sequence_.mesh(), x_}, t == 1 && same_bits(x_, y_));
   }
 
   const RepairRequest& request_;

@@ -13,6 +13,7 @@
 #include <noli/errors.h>
 #include <noli/version.h>
 #include "certify/json.h"
+#include "certify/result_file.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_names.h"
@@ -24,7 +25,7 @@
 namespace noli {
 namespace {
 
-constexpr const char* table_head = "file,time,given,what,sha256\n";
+constexpr std::string_view table_head = "file,time,given,what,sha256\n";
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -45,19 +46,15 @@ bool is_whole(double time) { return time == std::floor(time); }
 
 std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern) {
   const FramePattern parsed = parse_pattern(pattern);
-  return {parsed.beside("times.csv"), parsed.beside("repair.json")};
+  return {parsed.beside("times.csv"), parsed.beside("repair.json"), parsed.beside("changed.jsonl")};
 }
 
 bool is_of_repaired(const std::filesystem::path& file, const std::string& pattern) {
-  std::error_code error;
-  const auto place = [&error](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(path.is_absolute() ? path : std::filesystem::current_path() / path, error);
-  };
   const FramePattern parsed = parse_pattern(pattern);
   const auto number = parsed.number(parsed.folder() / file.filename());
-  if (number && place(parsed.file(*number)) == place(file)) return true;
+  if (number && place_of(parsed.file(*number)) == place_of(file)) return true;
   return std::ranges::any_of(files_beside_repaired(pattern),
-                             [&](const auto& path) { return place(path) == place(file); });
+                             [&](const auto& path) { return place_of(path) == place_of(file); });
 }
 
 RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& source)
@@ -66,6 +63,7 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       write_(frame_writer_of(request.pattern)),
       table_(files_beside_repaired(request.pattern)[0]),
       state_(files_beside_repaired(request.pattern)[1]),
+      changed_(files_beside_repaired(request.pattern)[2]),
       fingerprint_(find_fingerprint()),
       state_text_(Json({{"noli_repair", 1}, {"of", hex(fingerprint_)}}).dump() + '\n'),
       resumes_(request.resume && is_there()),
@@ -75,12 +73,13 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
     if (!files_.may_be(frame)) continue;
     throw UsageError("-o " + request.pattern + ": " + frame.string() + " is read; choose another folder or name");
   }
-  for (const auto& beside : {table_, state_, files_.series_path()}) {
+  for (const auto& beside : {table_, state_, changed_, files_.series_path()}) {
     if (is_read(beside)) {
       throw UsageError("-o " + request.pattern + ": " + beside.string() + " is read; choose another folder or name");
     }
     const auto status = std::filesystem::symlink_status(beside);
     if (status.type() == std::filesystem::file_type::not_found || request.force || resumes_) continue;
+    if (request.resume && has_only_begun()) continue;
     throw UsageError("-o " + request.pattern + ": " + beside.string() +
                      " exists already; choose another name, or pass --force");
   }
@@ -124,51 +123,104 @@ bool RepairedFrames::is_there() const {
                    "is of a repair of other frames, with other options or by another version; expected the same");
 }
 
-std::optional<RepairedFrames::Last> RepairedFrames::begin(const Mesh& mesh) {
-  std::string table = table_head;
+/// Whether a repair ended while it wrote its first files.
+bool RepairedFrames::has_only_begun() const {
+  const auto holds = [](const std::filesystem::path& file, std::string_view text) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (error) return !std::filesystem::exists(file);
+    return size == text.size() && (size == 0 || read_whole_file(file) == text);
+  };
+  return !std::filesystem::exists(state_) && holds(table_, table_head) && holds(changed_, "");
+}
+
+std::optional<RepairedFrames::Last> RepairedFrames::last(const Mesh& mesh) {
+  if (!resumes_) return std::nullopt;
   std::vector<double> times;
-  if (resumes_) keep_complete_steps(table, times);
-  // In this order, the state never stands beside rows of another repair.
-  replace_file(table_, table);
-  replace_file(state_, state_text_);
+  read_rows(times);
   if (times.empty()) return std::nullopt;
   const std::filesystem::path file = files_.file(times.size() - 1);
   Frame frame = read_frame(file);
   require_same_mesh(mesh, source_.name(0), frame.mesh, file);
   const auto step = static_cast<std::size_t>(times.back());
   files_.go_on(std::move(times));
-  return Last{step, std::move(frame.positions)};
+  return Last{step, std::move(frame.positions), read_changed(step)};
 }
 
-/// The rows up to the last frame at the end of a step that is there; a line without its end was torn.
-void RepairedFrames::keep_complete_steps(std::string& table, std::vector<double>& times) {
+void RepairedFrames::begin() {
+  // In this order, the state never stands beside rows of another repair.
+  replace_file(table_, std::string(table_head) + rows_);
+  replace_file(changed_, changes_);
+  replace_file(state_, state_text_);
+}
+
+/// The time of a row of the table about frame k; nothing if it is no such row.
+std::optional<double> RepairedFrames::time_of_row(const std::string& row, std::size_t k) const {
+  const std::string name = csv_cell(files_.file(k).filename().string()) + ',';
+  double time = 0;
+  if (!row.starts_with(name)) return std::nullopt;
+  const auto [rest, error] = std::from_chars(row.data() + name.size(), row.data() + row.size(), time);
+  if (error != std::errc() || rest == row.data() + row.size() || *rest != ',') return std::nullopt;
+  return time;
+}
+
+/// Reads the rows up to the last frame at the end of a step that is there. Only the last line may be torn. A frame that
+/// was edited must not be written again, so each that is there has to have its hash.
+void RepairedFrames::read_rows(std::vector<double>& times) {
   std::ifstream in(table_, std::ios::binary);
   std::string line;
-  std::size_t complete = 0, complete_bytes = table.size();
+  const auto require = [&](bool right, std::size_t number) {
+    if (right) return;
+    throw InputError(
+        table_.string(), fmt::format("line {}", number),
+        "is damaged; expected the table as it was written, or --force without --resume, which begins anew");
+  };
   std::getline(in, line);
-  while (std::getline(in, line) && !in.eof()) {
-    const std::filesystem::path file = files_.file(times.size());
-    const std::string name = csv_cell(file.filename().string()) + ',';
-    double time = 0;
-    if (!line.starts_with(name) || !std::filesystem::is_regular_file(file)) break;
-    const auto [rest, error] = std::from_chars(line.data() + name.size(), line.data() + line.size(), time);
-    const bool later = times.empty() ? time == 0 : time > times.back();
-    if (error != std::errc() || *rest != ',' || !later) break;
+  require(!in.eof() && line + '\n' == table_head, 1);
+  std::size_t complete = 0, complete_bytes = 0;
+  bool all_there = true;
+  for (std::size_t k = 0; std::getline(in, line) && !in.eof(); ++k) {
+    const std::optional<double> time = time_of_row(line, k);
+    const bool later = time && (k == 0 ? *time == 0 : times.empty() || *time > times.back());
+    require(later, k + 2);
+    const std::filesystem::path file = files_.file(k);
+    all_there = all_there && std::filesystem::is_regular_file(file);
+    if (!std::filesystem::exists(file)) continue;
     const auto [what, hash] = ends_of(line);
     const FrameFacts facts = file_facts(file, [] { return stop_asked().has_value(); });
     if (hex(facts.sha256) != hash) {
-      throw InputError(file.string(), "", "has changed since it was written; expected no --resume, but --force");
+      throw InputError(file.string(), "",
+                       "has changed since it was written; --force without --resume begins anew and replaces it");
     }
-    times.push_back(time);
-    table += line + '\n';
-    written_.push_back({time, what, facts});
-    if (!is_whole(time)) continue;
+    if (!all_there) continue;
+    times.push_back(*time);
+    rows_ += line + '\n';
+    written_.push_back({*time, what, facts});
+    if (!is_whole(*time)) continue;
     complete = times.size();
-    complete_bytes = table.size();
+    complete_bytes = rows_.size();
   }
   times.resize(complete);
   written_.resize(complete);
-  table.resize(complete_bytes);
+  rows_.resize(complete_bytes);
+}
+
+/// The lines of the first steps. Later ones are of a step that was not committed.
+std::vector<std::string> RepairedFrames::read_changed(std::size_t steps) {
+  std::vector<std::string> lines;
+  std::ifstream in(changed_, std::ios::binary);
+  std::string line;
+  while (std::getline(in, line) && !in.eof()) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("step") || !json["step"].is_number_unsigned()) {
+      throw InputError(changed_.string(), fmt::format("line {}", lines.size() + 1),
+                       "is damaged; --force without --resume begins anew");
+    }
+    if (json["step"].get<std::uint64_t>() > steps) break;
+    changes_ += line + '\n';
+    lines.push_back(line);
+  }
+  return lines;
 }
 
 std::size_t RepairedFrames::count(std::string_view what) const {
@@ -193,11 +245,17 @@ void RepairedFrames::write(double time, const Frame& frame, bool given) {
 }
 
 void RepairedFrames::commit() {
-  std::ofstream table(table_, std::ios::app | std::ios::binary);
-  table << pending_;
-  table.close();
-  if (table.fail()) throw WriteError(table_.string() + ": cannot be written");
-  pending_.clear();
+  append(changed_, pending_changed_);
+  append(table_, pending_);
+}
+
+void RepairedFrames::append(const std::filesystem::path& file, std::string& lines) {
+  if (lines.empty()) return;
+  std::ofstream out(file, std::ios::app | std::ios::binary);
+  out << lines;
+  out.close();
+  if (out.fail()) throw WriteError(file.string() + ": cannot be written");
+  lines.clear();
 }
 
 bool RepairedFrames::has_own_file(std::size_t k) const {

@@ -4,9 +4,10 @@
 // its rows in the table, so a repair that was killed can go on behind the last complete step.
 //
 // Files beside the frames, with the name of the pattern before them ("cloth_times.csv" of "cloth_%03d.ply")
-//   times.csv     a row for each frame: file, time in steps, the given frame of that time, what it is: "copied" byte
-//                 for byte, "given" (the same numbers), "repaired", "inserted"; and the file's SHA-256
-//   repair.json   a hash of all that decides what is written: the given files, the options, the program
+//   times.csv      a row for each frame: file, time in steps, the given frame of that time, what it is: "copied" byte
+//                  for byte, "given" (the same numbers), "repaired", "inserted"; and the file's SHA-256
+//   changed.jsonl  a line for each step that was changed (changes.h), written before its rows in the table
+//   repair.json    a hash of all that decides what is written: the given files, the options, the program
 #pragma once
 
 #include <cstdint>
@@ -32,17 +33,22 @@ class RepairedFrames {
   struct Last {
     std::size_t step;  ///< so many are done
     std::vector<Position> positions;
+    std::vector<std::string> changed;  ///< lines of these steps
   };
-  /// Begins the table; or, with `resume`, returns where an earlier repair ended. `mesh`: that of all frames. Throws
-  /// InputError for a frame of another mesh, or with other bytes than were written.
-  std::optional<Last> begin(const Mesh& mesh);
+  /// With `resume`, where an earlier repair ended; nothing if it has not done a step. `mesh`: that of all frames. Throws
+  /// InputError for a frame of another mesh, for one with other bytes than were written, and for a damaged table.
+  std::optional<Last> last(const Mesh& mesh);
+  /// Writes the files beside the frames as they are after last(). From now on the repair can be resumed.
+  void begin();
 
-  /// Of all that decides what is written. Threads, limits, the proof and the checker do not.
+  /// SHA-256 of everything that decides what is written: not of threads, limits, proof or checker.
   const Sha256Digest& fingerprint() const { return fingerprint_; }
 
   /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and gets the bytes of its file if that has
   /// one frame in the format of the new ones. Throws std::system_error.
   void write(double time, const Frame& frame, bool given);
+  /// The step whose frames were written last was changed.
+  void add_changed(const std::string& line) { pending_changed_ += line + '\n'; }
   /// The step that was written last is complete. Throws WriteError.
   void commit();
   /// What is committed stays. Notes in the outcome what that is. Throws std::system_error.
@@ -53,18 +59,23 @@ class RepairedFrames {
   bool is_read(const std::filesystem::path& file) const;
   Sha256Digest find_fingerprint() const;
   bool is_there() const;
-  void keep_complete_steps(std::string& table, std::vector<double>& times);
+  bool has_only_begun() const;
+  void read_rows(std::vector<double>& times);
+  std::vector<std::string> read_changed(std::size_t steps);
+  std::optional<double> time_of_row(const std::string& row, std::size_t k) const;
   std::size_t count(std::string_view what) const;
+  static void append(const std::filesystem::path& file, std::string& lines);
 
   const RepairRequest& request_;
   const FrameSource& source_;
   FrameWriter write_;
-  std::filesystem::path table_, state_;
+  std::filesystem::path table_, state_, changed_;
   Sha256Digest fingerprint_;
   std::string state_text_;
   bool resumes_;
   FrameFiles files_;
-  std::string pending_;  ///< rows that are not committed
+  std::string rows_, changes_;             ///< of the table and the changed steps, as an earlier call left them
+  std::string pending_, pending_changed_;  ///< rows and lines that are not committed
   std::vector<RepairedFrame> written_;
 };
 

@@ -6,7 +6,8 @@
 
 #include <noli/errors.h>
 #include "certify/repair/step_lines.h"
-#include "trajectory/stop.h"
+#include "trajectory/blocks/run_checks.h"
+#include "trajectory/blocks/run_manifest.h"
 
 namespace noli {
 
@@ -16,39 +17,71 @@ RepairedRun::RepairedRun(const std::filesystem::path& folder, RepairedScene scen
   folder_.lock();
 }
 
-void RepairedRun::begin(bool replace) {
+/// The scene.json of the run.
+Json RepairedRun::document() const {
+  return {{"title", scene_.title},
+          {"dimension", scene_.run.header.dimension},
+          {"duration", static_cast<double>(scene_.steps)},
+          {"window", scene_.run.header.window_length},
+          {"repair", {{"frames", scene_.pattern}, {"sha256", hex(scene_.fingerprint)}}}};
+}
+
+/// Precondition: the folder has a run that has begun.
+bool RepairedRun::is_of_this_repair() const {
+  const Json scene = Json::parse(read_scene(folder_.path(), read_manifest(folder_.path())), nullptr, false);
+  if (!scene.is_object() || !scene.contains("repair") || !scene["repair"].is_object()) return false;
+  return scene["repair"].value("sha256", Json()) == hex(scene_.fingerprint);
+}
+
+void RepairedRun::require_this_repair() const {
+  if (is_of_this_repair()) return;
+  throw InputError(folder_.path().string(), "",
+                   "is no run of this repair; expected that of these frames and options, or another name");
+}
+
+void RepairedRun::lacks_steps() const {
+  throw InputError(folder_.path().string(), "",
+                   "lacks steps of this repair; --force without --resume begins anew and replaces it");
+}
+
+void RepairedRun::begin(bool force, bool resume) {
+  folder_.lock();
+  bool replace = force;
+  if (resume && std::filesystem::exists(folder_.path())) {
+    if (folder_.has_begun()) require_this_repair();
+    replace = true;
+  }
   folder_.make(replace);
   writer_.emplace(folder_.path(), scene_.run);
-  folder_.begin(scene_.document, scene_.repair, scene_.facts);
+  folder_.begin(document(), scene_.fingerprint, facts());
 }
 
-void RepairedRun::go_on(std::size_t steps, std::span<const Position> x) {
-  if (!folder_.has_begun()) refuse();
-  const KnownWindows known = folder_.go_on(scene_.document, scene_.repair);
+bool RepairedRun::go_on(std::size_t steps, std::span<const Position> x, const std::function<bool()>& stop) {
+  folder_.lock();
+  if (!folder_.has_begun()) lacks_steps();
+  require_this_repair();
+  const KnownWindows known = folder_.go_on(document(), scene_.fingerprint);
   reader_.emplace(folder_.path());
   reader_->expect(known);
-  if (reader_->scene() != scene_.run) refuse();
+  if (reader_->scene() != scene_.run) lacks_steps();
   std::vector<Position> end;
   for (; steps_ < steps; ++steps_) {
-    end_if_stopped();
+    if (stop()) return false;
     std::optional<RunWindow> window = reader_->next_window();
-    if (!window) refuse();
+    if (!window) lacks_steps();
     end = std::move(window->positions);
   }
-  if (steps > 0 && end != in_run(x)) refuse();
-}
-
-void RepairedRun::refuse() const {
-  throw InputError(folder_.path().string(), "", "has not the steps of this repair; expected its run, or --force");
+  if (steps > 0 && !same_bits(end, in_run(x))) lacks_steps();
+  return true;
 }
 
 void RepairedRun::add_straight(std::span<const Position> x, const std::vector<Position>& y) {
-  if (is_there_already(y)) return;
-  write(lines_through_frames(x, std::array{1.0}, std::span(&y, 1), steps_, dimension()), y);
+  if (take_existing(y)) return;
+  write(lines_through_frames(x, std::array{1.0}, std::span(&y, 1), steps_, dimension()));
 }
 
 bool RepairedRun::add(const FilteredStep& moved, std::span<const Position> x, std::span<const double> times) {
-  if (is_there_already(moved.end)) return true;
+  if (take_existing(moved.end)) return true;
   WorldLines lines = lines_of_step(moved, x, steps_, dimension());
   const WindowResult found = verifier_.verify(lines, options_);
   if (!found.complete && found.contact_count() == 0) return false;
@@ -56,21 +89,21 @@ bool RepairedRun::add(const FilteredStep& moved, std::span<const Position> x, st
     std::vector<std::vector<Position>> frames;
     for (const double t : times) frames.push_back(moved.at(t));
     lines = lines_through_frames(x, times, frames, steps_, dimension());
-    ++straight_;
+    ++straight_windows_;
   }
-  write(lines, moved.end);
+  write(lines);
   return true;
 }
 
-/// Whether the run has the next step, from before it was killed.
-bool RepairedRun::is_there_already(std::span<const Position> end) {
+/// Passes over the next step, if the run has it from before it was stopped.
+bool RepairedRun::take_existing(std::span<const Position> end) {
   if (!reader_) return false;
   const std::optional<RunWindow> window = reader_->next_window();
   if (!window) {
     start_writing();
     return false;
   }
-  if (window->positions != in_run(end)) refuse();
+  if (!same_bits(window->positions, in_run(end))) lacks_steps();
   ++steps_;
   return true;
 }
@@ -78,34 +111,32 @@ bool RepairedRun::is_there_already(std::span<const Position> end) {
 void RepairedRun::start_writing() {
   writer_.emplace(folder_.path(), *reader_);
   reader_.reset();
-  folder_.resumed({writer_->windows(), writer_->running_hash()}, scene_.facts);
+  folder_.resumed(committed(), facts());
 }
 
-void RepairedRun::write(const WorldLines& lines, std::span<const Position> end) {
-  // Nothing continues from velocities.
-  const std::vector<Position> velocities(end.size(), Position{});
+void RepairedRun::write(const WorldLines& lines) {
+  // Nothing goes on from velocities.
+  const std::vector<Position> velocities(lines.vertex_count(), Position{});
   writer_->append_window({.index = steps_, .lines = lines, .velocities = velocities});
   writer_->commit();
-  std::size_t breakpoints = 0;
-  for (VertexId v = 0; v < lines.vertex_count(); ++v) breakpoints += lines.times(v).size();
-  Json entry = {{"event", "window"},       {"window", steps_},           {"time", lines.last_time()},
-                {"verdict", "no_contact"}, {"breakpoints", breakpoints}, {"running", hex(writer_->running_hash())}};
-  folder_.log(entry);
+  folder_.log(committed(), lines.last_time(), count_breakpoints(lines));
   ++steps_;
 }
 
-void RepairedRun::finish(const char* why) {
+void RepairedRun::finish(const char* why, const std::function<bool()>& stop) {
   if (reader_) {
-    while (reader_->next_window()) {
-    }
+    do {
+      if (stop()) return;
+    } while (reader_->next_window());
     start_writing();
   }
   if (!writer_) return;
   Json entry = {{"event", "end"}, {"end", why}};
-  CommittedWindows{writer_->windows(), writer_->running_hash()}.tell(entry);
+  committed().tell(entry);
   folder_.log(entry);
 }
 
+/// In two dimensions without a third coordinate.
 std::vector<Position> RepairedRun::in_run(std::span<const Position> x) const {
   std::vector<Position> result(x.begin(), x.end());
   if (dimension() == 2) {

@@ -15,11 +15,12 @@ class StepLines {
     offsets_.push_back(times_.size());
     add(begin_, x);
   }
-  /// Later than what the vertex has so far, and before the end of the step; else it does not count.
+  /// A breakpoint at this time in the step, if it rounds to a time within. One that is not later than the last takes
+  /// its place: sums of a phase's beginning and times in it may be off by a rounding.
   void move(double time_in_step, const Position& x) {
     const double time = begin_ + time_in_step;
     if (!(time > begin_ && time < end_)) return;
-    if (time == times_.back()) {
+    if (time <= times_.back()) {
       positions_.back() = in_space(x);
     } else {
       add(time, x);

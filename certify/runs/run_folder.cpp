@@ -12,6 +12,7 @@
 #include <noli/version.h>
 #include "certify/result_file.h"
 #include "certify/runs/run_log_facts.h"
+#include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/blocks/run_manifest.h"
@@ -59,6 +60,20 @@ Json essential(Json scene) {
 Json member_of_scene(const fs::path& run, const char* key) {
   const Json scene = Json::parse(read_scene(run, read_manifest(run)), nullptr, false);
   return scene.is_object() ? scene.value(key, Json()) : Json();
+}
+
+/// Whether a file has windows of a run, or is no remains of one at all.
+bool holds_motion(const fs::path& trajectory) {
+  if (!fs::exists(trajectory)) return false;
+  try {
+    return RunReader(trajectory.parent_path()).look().windows > 0;
+  } catch (const InputError&) {
+    std::ifstream file(trajectory, std::ios::binary);
+    std::string head(block_format::file_header_size, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    return !block_format::file_header(four_letters("TRAJ")).starts_with(head);
+  }
 }
 
 /// Removes the files of a run, but not the folder, which may be the current one. The file that makes it a run goes
@@ -132,8 +147,8 @@ bool RunFolder::has_begun() const {
   const fs::path trajectory = trajectory_path(path_);
   if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
   if (fs::exists(path_ / "manifest.json")) return true;
-  // The log is created after the manifest.
-  if (!fs::exists(path_ / "log.jsonl")) return false;
+  // The log is created after the manifest, and windows are written after the log.
+  if (!fs::exists(path_ / "log.jsonl") && !holds_motion(trajectory)) return false;
   throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
 }
 
@@ -224,20 +239,25 @@ Sha256Digest RunFolder::keep_series() const {
   return hash_of_written(series);
 }
 
+Json RunFolder::window_line(const CommittedWindows& committed, double time, std::uint64_t breakpoints) {
+  return {{"event", "window"},       {"window", committed.count - 1}, {"time", time},
+          {"verdict", "no_contact"}, {"breakpoints", breakpoints},    {"running", hex(committed.running)}};
+}
+
 void CommittedWindows::tell(Json& entry) const {
   entry["windows"] = count;
   entry["running"] = hex(running);
 }
 
 void RunFolder::log(const CommittedWindows& committed, const SeriesRow& row, std::uint32_t deepest) {
-  log({{"event", "window"},
-       {"window", committed.count - 1},
-       {"time", row.time},
-       {"verdict", "no_contact"},
-       {"events", row.events_in_all()},
-       {"breakpoints", row.breakpoints},
-       {"running", hex(committed.running)},
-       {"timing", {{"deepest", deepest}}}});
+  Json entry = window_line(committed, row.time, row.breakpoints);
+  entry["events"] = row.events_in_all();
+  entry["timing"] = {{"deepest", deepest}};
+  log(entry);
+}
+
+void RunFolder::log(const CommittedWindows& committed, double time, std::uint64_t breakpoints) {
+  log(window_line(committed, time, breakpoints));
 }
 
 void RunFolder::log(const Json& entry) { log_->append(entry); }

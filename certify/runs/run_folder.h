@@ -42,7 +42,7 @@ class RunFolder {
   /// Creates and locks the folder. Throws UsageError when the name exists. With `force` it removes the files of an
   /// existing run first, and throws UsageError for anything else, or for a run that another process writes to.
   void make(bool force);
-  /// Throws what make() would throw, and changes nothing.
+  /// Throws UsageError when make() would, because of what is there, and changes nothing.
   void require_room(bool force) const;
 
   /// Writes the manifest, with the scene as it was read: overrides applied, defaults filled in. From now on the run has
@@ -66,6 +66,8 @@ class RunFolder {
 
   /// Logs a window that has been committed. `deepest`: the deepest layer of contact that was active up to its end.
   void log(const CommittedWindows& committed, const SeriesRow& row, std::uint32_t deepest);
+  /// The same for a window without a row.
+  void log(const CommittedWindows& committed, double time, std::uint64_t breakpoints);
   /// Logs any other line. Precondition: `entry` has a member "event".
   void log(const Json& entry);
 
@@ -77,6 +79,7 @@ class RunFolder {
   bool log_has_begun_ = false;
 
   void log_begin(const Json& facts);
+  static Json window_line(const CommittedWindows& committed, double time, std::uint64_t breakpoints);
 };
 
 /// Whether a run has a file of this name in its folder, even if only for a moment.

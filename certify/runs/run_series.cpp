@@ -148,7 +148,7 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
 }
 
 std::string not_a_row(std::string_view bytes) {
-  if (bytes.empty()) return "there is none, as in the run of a repair; expected a run of `noli simulate`";
+  if (bytes.empty()) return "a repair has no energies; expected a run of `noli simulate`";
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
     return "its series is no row of version 6, as a run of an earlier Noli has it; expected a run of this version";
   }

@@ -21,8 +21,8 @@
 // Thickness, stiffness and step of the layers of contact decide how far vertices are moved and how long that takes,
 // never whether the answer is true: every step that is written has been decided in exact arithmetic.
 //
-// Units: those of the files; times in steps. Errors: as run_repair says. Thread safety: any number of repairs may run
-// at once, each with its own pattern and stop; nothing is printed.
+// Units: those of the files; times in steps (in a run, seconds). Errors: as run_repair says. Thread safety: any number of
+// repairs may run at once, each with its own pattern, run and stop; nothing is printed.
 #pragma once
 
 #include <array>
@@ -65,8 +65,8 @@ struct RepairRequest {
   double friction = 0;       ///< Coulomb's coefficient
   /// What is moved takes its surroundings along, over about so many edges; 0: contact alone decides where vertices go.
   std::uint64_t spread = 0;
-  /// A folder in which the motion is kept as well, as a run: each step is a window of one second, in which vertices move
-  /// as contact moved them. Not with only_new.
+  /// A folder for the motion as a run as well: each step is a window of one second, in which vertices move as contact
+  /// moved them, or on straight lines between the new frames (straight_windows). Not with only_new.
   std::optional<std::filesystem::path> run;
   std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes
   bool check = true;                           ///< the checker looks at it
@@ -98,7 +98,7 @@ struct RepairedStep {
   std::uint32_t deepest = 0;    ///< the deepest layer that acted
 };
 
-/// How much a body was moved, in the steps of this call.
+/// How much a body was moved.
 struct RepairedBody {
   std::string name;
   bool fixed = false;           ///< moves as given
@@ -129,12 +129,12 @@ struct RepairOutcome {
   std::size_t vertices = 0, cells = 0, frames_given = 0, steps_total = 0;
   std::size_t steps = 0;              ///< repaired or passed on
   std::size_t steps_before = 0;       ///< of these, by earlier calls (resume)
-  std::vector<RepairedStep> changed;  ///< by this call, in the order of time
+  std::vector<RepairedStep> changed;  ///< in the order of time
   std::vector<RepairedBody> by_body;  ///< of bodies with names
   std::vector<FrameBody> bodies;      ///< where they are in the mesh; empty if frames have no bodies
   std::uint64_t fixed = 0;            ///< vertices that move as given
   std::uint64_t baseline = 0;         ///< with only_new: pairs of cells that intersect in the first frame
-  /// What fixed vertices took in the steps of this call: relative to the mean mass of a vertex, times length per step.
+  /// What fixed vertices took: relative to the mean mass of a vertex, times length per step.
   Position momentum_into_fixed{};
   std::size_t frames = 0;    ///< that are written
   std::size_t inserted = 0;  ///< of these, between given ones
@@ -148,8 +148,9 @@ struct RepairOutcome {
   std::optional<VerifyOutcome> verified;  ///< what `noli verify` says of the new frames, if all are written
   std::vector<FrameFacts> inputs;         ///< the given files
   std::vector<RepairedFrame> written;     ///< by this call and those before it (resume), in the order of time
-  /// With a run: of its windows by this call, those that keep the straight lines between the new frames, since the other
-  /// motion, whose times are rounded, touches.
+  bool run_begun = false;                 ///< `run` of the request has the motion so far
+  /// Of the run's windows by this call, those that have the straight lines between the new frames, since the motion that
+  /// was filtered touches once its times are rounded.
   std::uint64_t straight_windows = 0;
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall clock

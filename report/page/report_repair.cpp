@@ -43,15 +43,8 @@ class Repaired {
     const auto word = result_.at("verdict").get<std::string>();
     take_word(word, report_);
     Json& lines = report_.page["verdict"]["lines"];
-    const std::uint64_t before = count("steps_before");
     lines.push_back(fmt::format("noli repair says {} ({}): {} of {} steps changed, {} frames inserted.", spoken(word),
-                                page_name(path_), result_.at("changed").size(), count("steps") - before,
-                                count("inserted")));
-    if (before > 0) {
-      add_caveat(
-          fmt::format("Earlier calls repaired the first {} steps: what they changed is not counted here.", before),
-          report_);
-    }
+                                page_name(path_), result_.at("changed").size(), count("steps"), count("inserted")));
     put_stated();
     if (const Json most = most_changed(); !most.is_null()) lines.push_back(words_of(most));
     const auto end = result_.at("end").get<std::string>();

@@ -47,10 +47,8 @@ class RepairedRunTest : public testing::Test {
     scene.run.mesh.faces = {{0, 1, 2}, {3, 4, 5}};
     scene.run.header.window_length = 1;
     scene.run.labels.assign(6, 0);
-    scene.document = {{"title", "test"}};
-    scene.facts = Json::object();
     run_.emplace(folder_.path() / "run", scene, at(1), options);
-    run_->begin(false);
+    run_->begin(false, false);
   }
   RunWindow window() const {
     RunReader reader(folder_.path() / "run");
@@ -63,13 +61,13 @@ class RepairedRunTest : public testing::Test {
 
 TEST_F(RepairedRunTest, KeepsTheMotionThatWasFiltered) {
   EXPECT_TRUE(run_->add(through({1, 0.5, 0.25, 0.5}), at(1), std::array{0.5, 1.0}));
-  EXPECT_EQ(run_->straight(), 0u);
+  EXPECT_EQ(run_->straight_windows(), 0u);
   EXPECT_EQ(window().lines->positions(3)[2], at(0.25)[3]);
 }
 
 TEST_F(RepairedRunTest, GoesStraightFromFrameToFrameWhereThatTouches) {
   EXPECT_TRUE(run_->add(through({1, 0.5, -0.25, 0.5}), at(1), std::array{0.5, 1.0}));
-  EXPECT_EQ(run_->straight(), 1u);
+  EXPECT_EQ(run_->straight_windows(), 1u);
   const RunWindow kept = window();
   ASSERT_EQ(kept.lines->times(3).size(), 3u);
   EXPECT_EQ(kept.lines->positions(3)[1], at(0.5)[3]);
@@ -94,20 +92,52 @@ TEST_F(StoppedRepairedRun, KeepsNothing) {
   EXPECT_FALSE(reader.next_window());
 }
 
+/// One vertex along x.
+FilteredStep::Piece along_x(double begin, const std::vector<double>& times, const std::vector<double>& x) {
+  std::vector<Position> positions;
+  for (const double coordinate : x) positions.push_back({coordinate, 0, 0});
+  return {begin, WorldLines::from_breakpoints({0, times.size()}, times, positions, "test")};
+}
+
+std::vector<double> x_of(const WorldLines& lines) {
+  std::vector<double> x;
+  for (const Position& position : lines.positions(0)) x.push_back(position[0]);
+  return x;
+}
+
+std::vector<double> times_of(const WorldLines& lines) { return {lines.times(0).begin(), lines.times(0).end()}; }
+
+const std::vector<Position> origin = {{0, 0, 0}};
+
+TEST(StepLines, JoinsPiecesAndEndsWhereTheStepDoes) {
+  FilteredStep step;
+  step.end = {{8, 0, 0}};
+  step.pieces.push_back(along_x(0, {0, 0.25, 0.5}, {0, 1, 2}));
+  step.pieces.push_back(along_x(0.5, {0, 0.25, 0.5}, {2, 3, 4}));
+  const WorldLines lines = lines_of_step(step, origin, 3, 3);
+  EXPECT_EQ(times_of(lines), (std::vector<double>{3, 3.25, 3.5, 3.75, 4}));
+  EXPECT_EQ(x_of(lines), (std::vector<double>{0, 1, 2, 3, 8}));
+}
+
 TEST(StepLines, TheLastOfTheBreakpointsAtOneTimeCounts) {
   // At the time 2^30 the next double is 2^-22 later.
   constexpr std::size_t k = std::size_t{1} << 30;
   FilteredStep step;
   step.end = {{4, 0, 0}};
-  step.pieces.push_back(
-      {0, WorldLines::from_breakpoints({0, 5}, {0, 0x1p-30, 0.5, 0.5 + 0x1p-30, 1},
-                                       {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}, "test")});
-  const std::vector<Position> begin = {{0, 0, 0}};
-  const WorldLines lines = lines_of_step(step, begin, k, 3);
-  ASSERT_EQ(lines.times(0).size(), 3u);
-  EXPECT_EQ(lines.first_time(), static_cast<double>(k));
-  EXPECT_EQ(lines.positions(0)[1], (Position{3, 0, 0}));
-  EXPECT_EQ(lines.last_time(), static_cast<double>(k + 1));
+  step.pieces.push_back(along_x(0, {0, 0x1p-30, 0.5, 0.5 + 0x1p-30, 1}, {0, 1, 2, 3, 4}));
+  const WorldLines lines = lines_of_step(step, origin, k, 3);
+  EXPECT_EQ(times_of(lines), (std::vector<double>{0x1p30, 0x1p30 + 0.5, 0x1p30 + 1}));
+  EXPECT_EQ(x_of(lines), (std::vector<double>{0, 3, 4}));
+}
+
+TEST(StepLines, APhaseMayBeginARoundingEarly) {
+  FilteredStep step;
+  step.end = {{4, 0, 0}};
+  step.pieces.push_back(along_x(0, {0, 0.5}, {0, 2}));
+  step.pieces.push_back(along_x(0.5 - 0x1p-53, {0, 0x1p-54}, {2, 3}));
+  const WorldLines lines = lines_of_step(step, origin, 0, 3);
+  EXPECT_EQ(times_of(lines), (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(x_of(lines), (std::vector<double>{0, 3, 4}));
 }
 
 }  // namespace

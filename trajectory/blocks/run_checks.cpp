@@ -21,6 +21,10 @@ bool same_bits(const Position& a, const Position& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
+bool same_bits(std::span<const Position> a, std::span<const Position> b) {
+  return std::ranges::equal(a, b, [](const Position& p, const Position& q) { return same_bits(p, q); });
+}
+
 bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups) {
   const auto alike = [&](const auto& cell) {
     return std::all_of(cell.begin(), cell.end(), [&](VertexId v) { return groups[v] == groups[cell[0]]; });

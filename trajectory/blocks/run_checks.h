@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Checks what must hold within a window of a run and between windows. A failure in writing is a fault of the program, a
-// failure in reading one of the file. Internal to run_file.h.
+// failure in reading one of the file.
 //
 // A function that returns a string gives "" if all is well, otherwise what is wrong.
 #pragma once
@@ -17,6 +17,7 @@ namespace noli {
 /// Equal bit for bit: 0 and -0 differ.
 bool same_bits(double a, double b);
 bool same_bits(const Position& a, const Position& b);
+bool same_bits(std::span<const Position> a, std::span<const Position> b);
 
 /// Whether all vertices of each cell have the same group. Precondition: a group for each vertex.
 bool cells_of_one_group(const Mesh& mesh, std::span<const std::uint16_t> groups);

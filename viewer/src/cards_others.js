@@ -166,7 +166,7 @@ export const otherCards = {
   "noli-repair": {
     title: "A motion, mended",
     figures: (r) => [
-      ["steps changed", `${number(r.changed.length)} of ${number(r.steps - r.steps_before)}`],
+      ["steps changed", `${number(r.changed.length)} of ${number(r.steps)}`],
       ["frames", r.frames],
       ["inserted", r.inserted],
       ["as given", r.as_given],

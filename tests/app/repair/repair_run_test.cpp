@@ -82,11 +82,18 @@ TEST_F(RepairRun, KeepsWhatWasRepairedBeforeNoWayWasLeft) {
   EXPECT_EQ(verified["run"]["end"], "blocked");
   EXPECT_EQ(verified["run"]["windows_total"], 3);
   EXPECT_EQ(verified["run"]["time"], json["steps"]);
+  EXPECT_NE(run_noli({"verify", run()}).out.find("(what is fixed meets next)"), std::string::npos);
 }
 
 TEST_F(RepairRun, IsNotBegunByAStartThatTouches) {
-  EXPECT_EQ(run_noli(with_run(falling({0, 1}))).exit_code, 1);
+  EXPECT_EQ(json_of(with_run(falling({0, 1})), 1)["run"], nullptr);
   EXPECT_FALSE(fs::exists(run()));
+  EXPECT_FALSE(fs::exists(folder.path("out/times.csv")));
+  // An older run stays, and is not said to be that of this repair.
+  ASSERT_EQ(run_noli(with_run(falling({1, -0.5}))).exit_code, 0);
+  const std::string before = read_text(trajectory());
+  EXPECT_EQ(json_of(with_run(falling({0, 1}), {"--force"}), 1)["run"], nullptr);
+  EXPECT_TRUE(read_text(trajectory()) == before);
 }
 
 TEST_F(RepairRun, InThePlaneHasNoThirdCoordinate) {
@@ -98,15 +105,32 @@ TEST_F(RepairRun, InThePlaneHasNoThirdCoordinate) {
   EXPECT_EQ(json["changed"].size(), 1u);
   EXPECT_EQ(RunReader(run()).header().dimension, 2u);
   const std::vector<RunWindow> steps = windows();
-  for (const Position& x : steps.at(0).positions) EXPECT_EQ(x[2], 0);
+  const std::vector<Position> repaired = positions(out(json["frames"].get<std::size_t>() - 1));
+  for (VertexId v = 0; v < 6; ++v) {
+    EXPECT_EQ(steps.at(0).positions[v], (Position{repaired[v][0], repaired[v][1], 0})) << v;
+    EXPECT_EQ(repaired[v][2], 7) << v;
+  }
   EXPECT_EQ(run_noli({"verify", run()}).exit_code, 0);
 }
 
 TEST_F(RepairRun, LeavesOutGroupsThatMayPass) {
+  // The third triangle sinks through the second, which it may, and onto the first, which it may not go through.
+  const auto frame = [&](const char* name, double z) {
+    return folder.write(
+        name,
+        ply_text(
+            {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 1}, {4, 0, 1}, {0, 4, 1}, {1, 1, z}, {1.5, 1, z}, {1, 1.5, z}},
+            {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}));
+  };
   const std::string groups =
-      folder.write("groups.json", R"({"groups": {"a": [0, 1, 2], "b": [3, 4, 5]}, "ignore": [["a", "b"]]})");
-  const Json json = json_of(with_run(falling({1, -0.5}), {"--ignore", groups}), 0);
-  EXPECT_EQ(json["copied"], 2) << json.dump();
+      folder.write("groups.json", R"({"groups": {"a": [3, 4, 5], "b": [6, 7, 8]}, "ignore": [["a", "b"]]})");
+  const Json json = json_of(with_run({frame("g_0.ply", 2), frame("g_1.ply", -0.5)}, {"--ignore", groups}), 0);
+  EXPECT_EQ(json["changed"].size(), 1u);
+  EXPECT_EQ(json["notes"].dump().find("straight lines"), std::string::npos) << json["notes"];
+  const RunWindow step = windows().at(0);
+  EXPECT_GT(step.breakpoints, 2u * 9);
+  EXPECT_LT(step.positions[6][2], 1);
+  EXPECT_GT(step.positions[6][2], 0);
   const Process verified = run_noli({"verify", run()});
   EXPECT_EQ(verified.exit_code, 0) << verified.err;
   EXPECT_NE(verified.out.find("not compared"), std::string::npos) << verified.out;
@@ -139,49 +163,88 @@ TEST_F(RepairRun, WhatWasKilledResumesToTheSameBytes) {
   EXPECT_EQ(run_noli({"verify", run()}).exit_code, 0);
 }
 
-TEST_F(RepairRun, AWindowThatWasCutOffIsWrittenAgain) {
-  const Words frames = falling(heights);
-  ASSERT_EQ(run_noli(with_run(frames)).exit_code, 0);
-  const std::string whole = read_text(trajectory()), table = read_text(folder.path("out/times.csv"));
-  const std::string log = read_text(folder.path("run/log.jsonl"));
-  // As after the first step: its row, its line in the log, and a part of the next window.
-  const auto after_lines = [](const std::string& text, int lines) {
-    std::size_t at = 0;
-    for (int k = 0; k < lines; ++k) at = text.find('\n', at) + 1;
-    return text.substr(0, at);
-  };
-  folder.write("out/times.csv", after_lines(table, 3));
-  folder.write("run/log.jsonl", after_lines(log, 2));
-  const std::size_t second = whole.find("WIND", whole.find("WIND") + 1);
-  folder.write("run/trajectory.blocks", whole.substr(0, second + 40));
-  const Process process = run_noli(with_run(frames, {"--resume"}));
-  EXPECT_EQ(process.exit_code, 0) << process.out << process.err;
-  EXPECT_TRUE(read_text(trajectory()) == whole);
+/// The first lines of a text.
+std::string lines_of(const std::string& text, std::size_t count) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < count; ++k) at = text.find('\n', at) + 1;
+  return text.substr(0, at);
 }
+
+class ResumedRun : public RepairRun, public testing::WithParamInterface<const char*> {
+ protected:
+  /// A repair into frames of this format.
+  Words words(const Words& frames, const Words& more = {}) const {
+    return Words{"repair", "-o", folder.path("out/%03d") + GetParam(), "--run", run()} + frames + more;
+  }
+};
+
+/// As if it had been killed after each number of steps: with their rows, their lines in the log, and a part of the next
+/// window.
+TEST_P(ResumedRun, GoesOnFromEachStep) {
+  const Words frames = falling({1, 0.5, -0.5, -1, -0.0, 1});
+  ASSERT_EQ(run_noli(words(frames)).exit_code, 0);
+  const std::string whole = read_text(trajectory()), log = read_text(folder.path("run/log.jsonl"));
+  const std::string table = read_text(folder.path("out/times.csv"));
+  const Json result = json_of(words(frames, {"--force"}), 0);
+  for (std::size_t steps = 0; steps < 5; ++steps) {
+    std::size_t rows = 0, window = whole.find("WIND");
+    for (const Json& frame : result["outputs"]) rows += frame["time"] <= steps ? 1 : 0;
+    for (std::size_t k = 0; k < steps; ++k) window = whole.find("WIND", window + 1);
+    folder.write("out/times.csv", lines_of(table, 1 + rows));
+    folder.write("run/log.jsonl", lines_of(log, 1 + steps));
+    folder.write("run/trajectory.blocks", whole.substr(0, window + 40));
+    const Process process = run_noli(words(frames, {"--resume"}));
+    ASSERT_EQ(process.exit_code, 0) << steps << process.out << process.err;
+    EXPECT_TRUE(read_text(trajectory()) == whole) << steps;
+    EXPECT_EQ(read_text(folder.path("out/times.csv")), table) << steps;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Formats, ResumedRun, testing::Values(".ply", ".obj", ".vtu"),
+                         [](const auto& format) { return std::string(format.param + 1); });
 
 TEST_F(RepairRun, RunsThatLackStepsAreNotResumed) {
   const Words frames = falling(heights);
   ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
   refuses(with_run(frames, {"--resume"}), "is not the folder of a run");
   ASSERT_EQ(run_noli(with_run(frames, {"--force"})).exit_code, 0);
-  const std::string other = folder.path("other");
-  fs::rename(run(), other);
+  const std::string whole = read_text(trajectory()), log = read_text(folder.path("run/log.jsonl"));
+  folder.write("run/log.jsonl", lines_of(log, 2));
+  const std::size_t second = whole.find("WIND", whole.find("WIND") + 1);
+  const std::string first_alone = whole.substr(0, second - 8);
+  folder.write("run/trajectory.blocks", first_alone);
+  refuses(with_run(frames, {"--resume"}), "lacks steps of this repair");
+  EXPECT_TRUE(read_text(trajectory()) == first_alone);
+}
+
+TEST_F(RepairRun, ResumeReplacesNoOtherRun) {
+  ASSERT_EQ(run_noli(with_run(falling(heights))).exit_code, 0);
+  const std::string before = read_text(trajectory());
   const Words others = falling({1, 0.5, -0.5, -0.25, 0.75});
-  ASSERT_EQ(run_noli(with_run(others, {"--force"})).exit_code, 0);
-  fs::remove_all(run());
-  fs::rename(other, run());
-  refuses(with_run(others, {"--resume"}), "is another scene");
+  const Words elsewhere = {"repair", "-o", folder.path("new/%d.ply"), "--run", run(), "--resume"};
+  refuses(elsewhere + others, "is no run of this repair");
+  // Nor one whose manifest and log are lost, or a file of frames by that name.
+  for (const char* name : {"manifest.json", "log.jsonl", "scene.json"}) fs::remove(folder.path("run") + "/" + name);
+  const Words words = elsewhere + Words{others[0], others[2]};
+  refuses(words, "has lost its manifest.json");
+  EXPECT_TRUE(read_text(trajectory()) == before);
+  const Words write = {"verify", "--no-check", "--trajectory", folder.path("trajectory.blocks"), others[0], others[1]};
+  ASSERT_EQ(run_noli(write).exit_code, 0);
+  fs::rename(folder.path("trajectory.blocks"), trajectory());
+  refuses(words, "has lost its manifest.json");
+  // What a repair leaves that is killed before its first window is replaced.
+  folder.write("run/trajectory.blocks", before.substr(0, 14));
+  EXPECT_EQ(run_noli(words).exit_code, 0);
 }
 
 TEST_F(RepairRun, HasAFolderOfItsOwn) {
   const Words frames = falling({1, -0.5});
-  refuses(with_run(frames, {"--only-new"}), "--run: a run compares all cells");
+  refuses(with_run(frames, {"--only-new"}), "--run: cannot be combined with --only-new");
   for (const char* name : {"out", "out/", "new/../out"}) {
-    refuses(repair(frames, {"--run", folder.path(name)}), "has the new frames; choose another folder");
+    refuses(repair(frames, {"--run", folder.path(name)}), "the new frames go there; choose another folder");
   }
   fs::create_directory(run());
   folder.write("run/mine.txt", "mine");
-  refuses(with_run(frames), "exists already");
+  refuses(with_run(frames), "--run " + run() + ": exists already");
   refuses(with_run(frames, {"--force"}), "is not a run");
   refuses(with_run(frames, {"--json", folder.path("run/log.jsonl")}), "is a file of the run in that folder");
   EXPECT_FALSE(fs::exists(folder.path("out/000.ply")));
@@ -196,6 +259,9 @@ TEST_F(RepairRun, HasAFolderOfItsOwn) {
   const std::string before = read_text(trajectory());
   refuses(with_run({trajectory()}, {"--force"}), "is read; choose another folder");
   EXPECT_TRUE(read_text(trajectory()) == before);
+  fs::create_symlink(trajectory(), folder.path("frames.blocks"));
+  refuses(with_run({folder.path("frames.blocks")}, {"--force"}), "is read; choose another folder");
+  EXPECT_TRUE(read_text(trajectory()) == before);
 }
 
 TEST_F(RepairRun, IsDescribedAndShown) {
@@ -203,7 +269,7 @@ TEST_F(RepairRun, IsDescribedAndShown) {
   EXPECT_EQ(json_of({"info", run()}, 0)["files"][0]["windows"], heights.size() - 1);
   EXPECT_EQ(run_noli({"export", run(), "--fps", "2", "-o", folder.path("at/%02d.ply")}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder.path("at/08.ply")));
-  refuses({"explain", run()}, "as in the run of a repair; expected a run of `noli simulate`");
+  refuses({"explain", run()}, "a repair has no energies; expected a run of `noli simulate`");
   if (!reports_are_there()) return;
   const std::string page = folder.path("run.html");
   const Process reported = run_noli({"report", run(), "-o", page});

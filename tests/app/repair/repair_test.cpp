@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -202,8 +203,8 @@ TEST_F(Repair, WhatWasKilledAnywhereResumesToTheSameBytes) {
   ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
   const auto whole = content_of(folder.path("out"));
   const std::string table = whole.at("times.csv");
-  for (std::size_t bytes = 0; bytes <= table.size(); bytes += 7) {
-    // As if it had been killed when so much of the table was written, perhaps within a frame.
+  for (std::size_t bytes = table.find('\n') + 1; bytes <= table.size(); bytes += 7) {
+    // As if it had been killed when so much of the table was written, perhaps within a frame. Its head is always whole.
     folder.write("out/times.csv", table.substr(0, bytes));
     // A frame without its row may be torn; one with its row is whole.
     const std::size_t row = table.find("\n003.ply") + 1;
@@ -230,6 +231,57 @@ TEST_F(Repair, FramesThatWereChangedAreNotResumed) {
   EXPECT_EQ(process.exit_code, 3);
   EXPECT_NE(process.err.find("001.ply: has changed since it was written"), std::string::npos) << process.err;
   EXPECT_EQ(read_text(changed), two_triangles(0.75));
+}
+
+TEST_F(Repair, ADamagedTableIsNotResumed) {
+  const Words frames = falling({1, 0.5, -0.5, -1});
+  ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
+  const std::string table = read_text(folder.path("out/times.csv"));
+  folder.write("out/002.ply", "edited");
+  const std::size_t head = table.find('\n') + 1, row = table.find('\n', head) + 1;
+  std::string semicolons = table;
+  std::ranges::replace(semicolons, ',', ';');
+  for (const std::string& damaged :
+       {std::string(), table.substr(head), semicolons, table.substr(0, row) + "?" + table.substr(row),
+        table.substr(0, head) + table.substr(row)}) {
+    folder.write("out/times.csv", damaged);
+    const Process process = run_noli(repair(frames, {"--resume"}));
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(process.err.find("is damaged; expected the table as it was written"), std::string::npos) << process.err;
+    EXPECT_EQ(read_text(folder.path("out/times.csv")), damaged);
+    EXPECT_EQ(read_text(out(2)), "edited");
+  }
+  // A frame that was edited stays, also if one before it is missing.
+  folder.write("out/times.csv", table);
+  fs::remove(out(1));
+  EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 3);
+  EXPECT_EQ(read_text(out(2)), "edited");
+}
+
+TEST_F(Repair, WhatWasChangedBeforeIsStillKnown) {
+  const Words frames = falling({1, 0.5, -0.5, -1, -0.5, 1, -1});
+  Json whole = json_of(repair(frames), 0);
+  ASSERT_GT(whole["changed"].size(), 1u);
+  const std::string table = read_text(folder.path("out/times.csv")),
+                    changed = read_text(folder.path("out/changed.jsonl"));
+  for (std::size_t row = table.find('\n'); row != std::string::npos; row = table.find('\n', row + 1)) {
+    folder.write("out/times.csv", table.substr(0, row + 1));
+    Json resumed = json_of(repair(frames, {"--resume"}), 0);
+    for (const char* member : {"timing", "steps_before"}) resumed.erase(member), whole.erase(member);
+    EXPECT_EQ(resumed, whole) << row;
+    EXPECT_EQ(read_text(folder.path("out/changed.jsonl")), changed) << row;
+  }
+  folder.write("out/changed.jsonl", "?\n" + changed);
+  const Process damaged = run_noli(repair(frames, {"--resume"}));
+  EXPECT_EQ(damaged.exit_code, 3);
+  EXPECT_NE(damaged.err.find("changed.jsonl"), std::string::npos) << damaged.err;
+}
+
+TEST_F(Repair, AStartThatTouchesLeavesNothing) {
+  EXPECT_EQ(run_noli(repair(falling({0, 1}))).exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder.path("out/times.csv")));
+  EXPECT_FALSE(fs::exists(folder.path("out/repair.json")));
+  EXPECT_EQ(run_noli(repair(falling({1, 2}))).exit_code, 0);
 }
 
 TEST_F(Repair, AFolderThatIsReadGetsNoFrames) {
