@@ -195,6 +195,8 @@ class Stage {
     this.toContact.hidden = !first;
     if (first) this.pick(first);
     else this.player.show(this.motion.first);
+    // Two motions over each other say most as a whole.
+    if (this.view.given) this.view.showAll();
     this.opened = true;
     return this.view.changed();
   }
