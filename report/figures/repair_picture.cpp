@@ -24,6 +24,10 @@ void zoom_to(const std::string& name, const Json& bodies, View& view) {
   view.count = body->at("vertices").get<std::size_t>();
 }
 
+Extent around_both(const Extent& a, const Extent& b) {
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
 PictureOutcome drawn(const RepairPictureRequest& request, const Json& result) {
   const RepairedMotions motions = repaired_motions(result, request.result);
   const double last = motions.repaired->times().back();
@@ -31,12 +35,15 @@ PictureOutcome drawn(const RepairPictureRequest& request, const Json& result) {
     throw InputError(request.result.string(), "",
                      fmt::format("is about the times from 0 to {} steps, not {}", last, request.time));
   }
-  TimedFrames& motion = request.given ? *motions.given : *motions.repaired;
   View view = view_from(request.view, result.at("dimension").get<int>());
   if (!request.view.zoom.empty()) zoom_to(request.view.zoom, result.at("bodies"), view);
-  const Frame frame{motions.mesh, motion.at(request.time)};
+  const Frame repaired{motions.mesh, motions.repaired->at(request.time)};
+  const Frame given{motions.mesh, motions.given->at(request.time)};
+  const std::vector<bool> fixed(motions.mesh.vertex_count, false);
   return with_asked_view([&] {
-    const Picture picture = draw(frame, std::vector<bool>(frame.mesh.vertex_count, false), view);
+    // Pictures before and after are to be laid side by side.
+    view.extent = around_both(extent_of(repaired, fixed, view), extent_of(given, fixed, view));
+    const Picture picture = draw(request.given ? given : repaired, fixed, view);
     replace_file(request.output, png(picture));
     return PictureOutcome{request.time, picture.width, picture.height};
   });
