@@ -69,7 +69,7 @@ class Repaired:
     def to_json(self) -> Json:
         """A dict, as ``noli repair --json`` writes it (``noli schema repair``): "changed" lists the steps that were.
 
-        Without ``output``, the files that it names are gone."""
+        Without ``output``, the frames that it names are gone."""
         return self._json
 
     def raise_unless_proved(self) -> Repaired:
@@ -145,10 +145,14 @@ def repair(
         The gap that is aimed at, in the unit of the positions. Default: from the mesh.
     masses : (vertices,) positive numbers, or "uniform"
         Default: by area and length.
-    restitution, friction, spread
-        As ``noli repair`` has them.
+    restitution : float
+        Share of the energy of an approach that comes back, 0 to 1.
+    friction : float
+        Coulomb's coefficient.
+    spread : int
+        What contact moves takes its surroundings along, over about so many edges. 0: contact alone.
     run : str, optional
-        A folder in which the motion is kept as well, as contact made it: a run, in which a step takes one second.
+        A folder for the motion as contact made it: a run, in which a step takes one second.
     only_new, points, dimension, proof, check, threads, time_limit, force, progress
         As for ``noli.verify``.
     resume : bool
@@ -196,7 +200,7 @@ def repair(
     if ignore is not None:
         options["ignore"] = os.fspath(ignore)
     if fixed is not None:
-        options.update(_chosen(fixed, mesh))
+        options.update(_chosen(fixed, mesh, None if names is not None else given.vertices))
     if names is not None and mesh is not None:
         raise UsageError("mesh: frames in files have their own; expected none")
     with tempfile.TemporaryDirectory() as scratch, progress_of(progress) as told:
@@ -225,9 +229,12 @@ def read_frames(frames: Union[Path, Sequence[Path]]) -> Tuple[Floats, CollisionM
     return np.array(positions), CollisionMesh(faces, edges=edges, points=points, vertex_count=len(positions[0]))
 
 
-def _chosen(fixed, mesh):
-    """Options for the vertices, or for the bodies, that move as given."""
-    array = np.atleast_1d(np.asarray(fixed))
+def _chosen(fixed, mesh, count):
+    """Options for the vertices, or for the bodies, that move as given. `count`: of all vertices, if it is known."""
+    array = np.asarray(fixed)
+    if array.ndim == 0 and array.dtype.kind in "iub":
+        raise UsageError(f"fixed: expected a list of vertices, found {fixed!r}; range({fixed}) are the first {fixed}")
+    array = np.atleast_1d(array)
     if array.dtype.kind == "U":
         bodies = getattr(mesh, "bodies", None)
         if bodies is None:
@@ -235,6 +242,8 @@ def _chosen(fixed, mesh):
         if any(name not in bodies for name in array):
             raise UsageError(f"fixed: {array.tolist()} are not all names of bodies; there are {sorted(bodies)}")
         array = np.concatenate([bodies[name] for name in array])
+    if array.dtype == bool and count is not None and array.shape != (count,):
+        raise UsageError(f"fixed: expected {count} values, one for each vertex, found the shape {array.shape}")
     return {"fixed": (np.flatnonzero(array) if array.dtype == bool else indices(array, 1, "fixed")).tolist()}
 
 

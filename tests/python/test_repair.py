@@ -40,6 +40,10 @@ class Repair(TestCase):
         self.assertTrue(np.array_equal(found.frames, self.V[:4]))
         with self.assertRaises(noli.NotProved):
             found.raise_unless_proved()
+        with self.assertRaisesRegex(noli.UsageError, r"range\(8\) are the first 8"):
+            noli.repair(self.V, self.mesh, fixed=8)
+        with self.assertRaisesRegex(noli.UsageError, "expected 128 values, one for each vertex"):
+            noli.repair(self.V, self.mesh, fixed=np.ones(100, bool))
 
     def test_options(self):
         proof = self.folder / "mended.noli"
