@@ -87,6 +87,10 @@ CLI::Validator is_not_negative() {
   return numbers([](double x) { return x >= 0; }, "from 0");
 }
 
+CLI::Validator is_share() {
+  return numbers([](double x) { return x >= 0 && x <= 1; }, "from 0 to 1");
+}
+
 CLI::Validator is_dimension() {
   return CLI::Validator(
       [](const std::string& text) { return text == "2" || text == "3" ? "" : text + ": expected 2 or 3"; }, "");

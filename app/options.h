@@ -31,6 +31,9 @@ CLI::Validator is_positive();
 /// Accepts 0 too.
 CLI::Validator is_not_negative();
 
+/// Accepts numbers from 0 to 1.
+CLI::Validator is_share();
+
 /// Accepts 2 and 3.
 CLI::Validator is_dimension();
 

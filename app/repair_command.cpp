@@ -99,12 +99,14 @@ ExitCode run(RepairArguments& arguments) {
     request.frames = named_frames(std::move(request.frames));
   }
   inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
+  if (request.run && request.run->empty()) throw UsageError("--run: expected the name of a folder, found ''");
   if (request.run) inputs.push_back(*request.run);  // no output is one of its files
   if (request.ignore) inputs.push_back(*request.ignore);
   if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
   if (arguments.fixed_vertices) {
     inputs.push_back(*arguments.fixed_vertices);
     request.fixed_listed = listed_vertices(*arguments.fixed_vertices);
+    request.fixed_file = arguments.fixed_vertices;
   }
   const Output output(arguments.results, inputs, outputs_of(arguments));
   request.force = arguments.results.force && !request.resume;
@@ -161,7 +163,7 @@ Command add_repair(CLI::App& app) {
   add_threads_option(*command, request.threads);
   add_time_limit_option(*command, arguments->time_limit);
   command->add_option("--restitution", request.restitution, "Share of the energy of an approach that comes back")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(is_share())
       ->capture_default_str()
       ->type_name("E")
       ->group(group::question);

@@ -209,13 +209,14 @@ class Repair {
   /// A folder with a run is read as that, and not as frames; and a run that is replaced must not be what is read.
   void require_place_for(const std::filesystem::path& run) const {
     const std::filesystem::path folder = place_of(run);
-    if (place_of(parse_pattern(request_.pattern).file(0)).parent_path() == folder) {
+    const std::string frames = place_of(parse_pattern(request_.pattern).file(0)).string();
+    if (frames.starts_with(folder.string() + '/') || is_of_repaired(run, request_.pattern)) {
       throw UsageError("--run " + run.string() + ": the new frames go there; choose another folder");
     }
-    for (const auto& frame : request_.frames) {
-      const std::filesystem::path there = place_of(frame);
+    for (const auto& file : files_read(request_)) {
+      const std::filesystem::path there = place_of(file);
       if (there.parent_path() != folder || !is_file_of_run(there.filename())) continue;
-      throw UsageError("--run " + run.string() + ": " + frame.string() + " is read; choose another folder");
+      throw UsageError("--run " + run.string() + ": " + file.string() + " is read; choose another folder");
     }
   }
 

@@ -44,6 +44,14 @@ bool is_whole(double time) { return time == std::floor(time); }
 
 }  // namespace
 
+std::vector<std::filesystem::path> files_read(const RepairRequest& request) {
+  std::vector<std::filesystem::path> read = request.frames;
+  if (request.ignore) read.push_back(*request.ignore);
+  if (request.masses != "size" && request.masses != "uniform") read.emplace_back(request.masses);
+  if (request.fixed_file) read.push_back(*request.fixed_file);
+  return read;
+}
+
 std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern) {
   const FramePattern parsed = parse_pattern(pattern);
   return {parsed.beside("times.csv"), parsed.beside("repair.json"), parsed.beside("changed.jsonl")};
@@ -69,9 +77,10 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       resumes_(request.resume && is_there()),
       files_(request.pattern,
              request.force || resumes_ ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {
-  for (const auto& frame : request.frames) {
-    if (!files_.may_be(frame)) continue;
-    throw UsageError("-o " + request.pattern + ": " + frame.string() + " is read; choose another folder or name");
+  lock();
+  for (const auto& file : files_read(request)) {
+    if (!files_.may_be(file)) continue;
+    throw UsageError("-o " + request.pattern + ": " + file.string() + " is read; choose another folder or name");
   }
   for (const auto& beside : {table_, state_, changed_, files_.series_path()}) {
     if (is_read(beside)) {
@@ -86,32 +95,52 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
 }
 
 bool RepairedFrames::is_read(const std::filesystem::path& file) const {
-  std::vector<std::filesystem::path> read = request_.frames;
-  if (request_.ignore) read.push_back(*request_.ignore);
-  read.emplace_back(request_.masses);
   std::error_code error;
-  return std::ranges::any_of(read, [&](const auto& path) { return std::filesystem::equivalent(path, file, error); });
+  return std::ranges::any_of(files_read(request_),
+                             [&](const auto& path) { return std::filesystem::equivalent(path, file, error); });
+}
+
+/// Against another repair that writes there.
+void RepairedFrames::lock() {
+  const std::filesystem::path folder = files_.folder();
+  try {
+    lock_.emplace(folder.empty() ? "." : folder);
+  } catch (const FolderLocked& locked) {
+    throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
+  }
 }
 
 Sha256Digest RepairedFrames::find_fingerprint() const {
-  std::string text = fmt::format("{}\n{} {} {} {} {} {} {}\n", version_commit(), request_.pattern, request_.fixed_first,
-                                 request_.restitution, request_.friction, request_.points,
-                                 request_.thickness.value_or(0), request_.dimension.value_or(0));
-  text += fmt::format("{} {} {} {}\n", request_.masses, request_.spread, request_.only_new,
-                      request_.reading.polygons == PolygonRule::refuse);
-  if (request_.masses != "size" && request_.masses != "uniform") text += read_whole_file(request_.masses);
-  for (const std::string& key : request_.reading.keys) text += key + '\n';
-  for (const VertexId v : request_.fixed_listed) text += fmt::format("{} ", v);
-  for (const std::string& body : request_.fixed_bodies) text += body + '\n';
-  for (const BodyFrames& body : request_.reading.bodies) text += fmt::format("{} {}\n", body.name, body.still);
-  if (request_.ignore) text += read_whole_file(*request_.ignore);
+  const auto hash_of = [](std::string_view text) {
+    Sha256 hash;
+    hash.update(text);
+    return hash.digest();
+  };
+  Json json = {{"noli", version_commit()},
+               {"pattern", request_.pattern},
+               {"dimension", request_.dimension.value_or(0)},
+               {"points", request_.points},
+               {"only_new", request_.only_new},
+               {"refuse_polygons", request_.reading.polygons == PolygonRule::refuse},
+               {"keys", request_.reading.keys},
+               {"fixed_first", request_.fixed_first},
+               {"fixed_listed", request_.fixed_listed},
+               {"fixed_bodies", request_.fixed_bodies},
+               {"thickness", request_.thickness.value_or(0)},
+               {"masses", request_.masses},
+               {"restitution", request_.restitution},
+               {"friction", request_.friction},
+               {"spread", request_.spread}};
+  if (request_.masses != "size" && request_.masses != "uniform")
+    json["masses_file"] = hex(hash_of(read_whole_file(request_.masses)));
+  if (request_.ignore) json["ignore"] = hex(hash_of(read_whole_file(*request_.ignore)));
+  for (const BodyFrames& body : request_.reading.bodies) json["bodies"].push_back({body.name, body.still});
   for (const FrameFacts& facts : source_.facts()) {
-    const std::string name = std::filesystem::path(facts.file).filename().string();  // wherever it is now
-    text += fmt::format("{} {} {} {}\n", name, facts.body, facts.bytes, hex(facts.sha256));
+    // Wherever the file is now.
+    json["inputs"].push_back(
+        {std::filesystem::path(facts.file).filename().string(), facts.body, facts.bytes, hex(facts.sha256)});
   }
-  Sha256 hash;
-  hash.update(text);
-  return hash.digest();
+  return hash_of(to_text(json));
 }
 
 bool RepairedFrames::is_there() const {
@@ -119,11 +148,12 @@ bool RepairedFrames::is_there() const {
   if (!std::filesystem::is_regular_file(state_, error) || !std::filesystem::is_regular_file(table_, error))
     return false;
   if (read_whole_file(state_) == state_text_) return true;
+  if (has_only_begun()) return false;
   throw InputError(state_.string(), "",
                    "is of a repair of other frames, with other options or by another version; expected the same");
 }
 
-/// Whether a repair ended while it wrote its first files.
+/// Whether a repair ended while it wrote its first files; with --force, the state of another repair may still be there.
 bool RepairedFrames::has_only_begun() const {
   const auto holds = [](const std::filesystem::path& file, std::string_view text) {
     std::error_code error;
@@ -131,7 +161,7 @@ bool RepairedFrames::has_only_begun() const {
     if (error) return !std::filesystem::exists(file);
     return size == text.size() && (size == 0 || read_whole_file(file) == text);
   };
-  return !std::filesystem::exists(state_) && holds(table_, table_head) && holds(changed_, "");
+  return holds(table_, table_head) && holds(changed_, "");
 }
 
 std::optional<RepairedFrames::Last> RepairedFrames::last(const Mesh& mesh) {

@@ -18,6 +18,7 @@
 
 #include <noli/repair.h>
 #include "certify/frame_files.h"
+#include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_source.h"
 
@@ -58,6 +59,7 @@ class RepairedFrames {
   bool has_own_file(std::size_t k) const;
   bool is_read(const std::filesystem::path& file) const;
   Sha256Digest find_fingerprint() const;
+  void lock();
   bool is_there() const;
   bool has_only_begun() const;
   void read_rows(std::vector<double>& times);
@@ -74,10 +76,14 @@ class RepairedFrames {
   std::string state_text_;
   bool resumes_;
   FrameFiles files_;
+  std::optional<FolderLock> lock_;         ///< of their folder
   std::string rows_, changes_;             ///< of the table and the changed steps, as an earlier call left them
   std::string pending_, pending_changed_;  ///< rows and lines that are not committed
   std::vector<RepairedFrame> written_;
 };
+
+/// All files that a repair reads.
+std::vector<std::filesystem::path> files_read(const RepairRequest& request);
 
 /// The files beside the frames of a pattern. Throws UsageError for a pattern without a number.
 std::vector<std::filesystem::path> files_beside_repaired(const std::string& pattern);

@@ -61,6 +61,8 @@ bool RepairedRun::go_on(std::size_t steps, std::span<const Position> x, const st
   if (!folder_.has_begun()) lacks_steps();
   require_this_repair();
   const KnownWindows known = folder_.go_on(document(), scene_.fingerprint);
+  // Each window was in the log, with its hash, before its step was in the table of frames.
+  if (known.count < steps) lacks_steps();
   reader_.emplace(folder_.path());
   reader_->expect(known);
   if (reader_->scene() != scene_.run) lacks_steps();

@@ -50,15 +50,16 @@ struct RepairRequest {
   bool force = false;   ///< existing files of that pattern may be replaced or removed
   bool resume =
       false;  ///< continue an earlier repair of the same frames with the same options, also one that was killed
-  std::optional<int> dimension;                 ///< as in VerifyRequest
-  int threads = 0;                              ///< threads of the exact decisions; 0: all there are
-  bool points = false;                          ///< vertices that no cell refers to are particles
-  std::optional<std::filesystem::path> ignore;  ///< groups that are not compared, and may pass through each other
-  bool only_new = false;                        ///< cells that intersect in the first frame may go on so
-  std::uint64_t fixed_first = 0;                ///< the first N vertices move as given
-  std::vector<VertexId> fixed_listed;           ///< these too
-  std::vector<std::string> fixed_bodies;        ///< these too, by name; bodies that stand still always do
-  std::optional<double> thickness;              ///< the gap that is aimed at; nothing: from the mesh
+  std::optional<int> dimension;                     ///< as in VerifyRequest
+  int threads = 0;                                  ///< threads of the exact decisions; 0: all there are
+  bool points = false;                              ///< vertices that no cell refers to are particles
+  std::optional<std::filesystem::path> ignore;      ///< groups that are not compared, and may pass through each other
+  bool only_new = false;                            ///< cells that intersect in the first frame may go on so
+  std::uint64_t fixed_first = 0;                    ///< the first N vertices move as given
+  std::vector<VertexId> fixed_listed;               ///< these too
+  std::optional<std::filesystem::path> fixed_file;  ///< the file that lists them: no output may replace it
+  std::vector<std::string> fixed_bodies;            ///< these too, by name; bodies that stand still always do
+  std::optional<double> thickness;                  ///< the gap that is aimed at; nothing: from the mesh
   /// "size": by area and length; "uniform"; else the name of a text file with a positive number for each vertex.
   std::string masses = "size";
   double restitution = 0.1;  ///< share of the energy of an approach that comes back, 0 to 1

@@ -216,6 +216,28 @@ TEST_F(RepairRun, RunsThatLackStepsAreNotResumed) {
   EXPECT_TRUE(read_text(trajectory()) == first_alone);
 }
 
+TEST_F(RepairRun, IsTakenForThisRepairByItsLogAlone) {
+  const Words frames = falling({1, 0.5, -0.5, 1, 1.5});
+  ASSERT_EQ(run_noli(with_run(frames)).exit_code, 0);
+  const std::string other = folder.path("other");
+  const Words words =
+      Words{"repair", "-o", folder.path("others/%d.ply"), "--run", other, "--restitution", "0.9"} + frames;
+  ASSERT_EQ(run_noli(words).exit_code, 0);
+  // Both end at the same place, so the last window tells nothing.
+  fs::copy_file(other + "/trajectory.blocks", trajectory(), fs::copy_options::overwrite_existing);
+  refuses(with_run(frames, {"--resume"}), "trajectory.blocks");
+  folder.write("run/log.jsonl", lines_of(read_text(folder.path("run/log.jsonl")), 1));
+  refuses(with_run(frames, {"--resume"}), "lacks steps of this repair");
+}
+
+TEST_F(RepairRun, ARefusedRunLeavesTheFramesAlone) {
+  const Words frames = falling(heights);
+  ASSERT_EQ(run_noli(repair(frames)).exit_code, 0);
+  const std::string table = read_text(folder.path("out/times.csv")), file = folder.write("file", "");
+  refuses(repair(frames, {"--force", "--run", file + "/run"}), "--run");
+  EXPECT_EQ(read_text(folder.path("out/times.csv")), table);
+}
+
 TEST_F(RepairRun, ResumeReplacesNoOtherRun) {
   ASSERT_EQ(run_noli(with_run(falling(heights))).exit_code, 0);
   const std::string before = read_text(trajectory());
@@ -239,7 +261,7 @@ TEST_F(RepairRun, ResumeReplacesNoOtherRun) {
 TEST_F(RepairRun, HasAFolderOfItsOwn) {
   const Words frames = falling({1, -0.5});
   refuses(with_run(frames, {"--only-new"}), "--run: cannot be combined with --only-new");
-  for (const char* name : {"out", "out/", "new/../out"}) {
+  for (const char* name : {"out", "out/", "new/../out", "out/007.ply", "out/times.csv", "."}) {
     refuses(repair(frames, {"--run", folder.path(name)}), "the new frames go there; choose another folder");
   }
   fs::create_directory(run());
@@ -259,6 +281,9 @@ TEST_F(RepairRun, HasAFolderOfItsOwn) {
   const std::string before = read_text(trajectory());
   refuses(with_run({trajectory()}, {"--force"}), "is read; choose another folder");
   EXPECT_TRUE(read_text(trajectory()) == before);
+  const std::string pins = folder.write("run/log.jsonl.part", "0 1 2\n");
+  refuses(with_run(frames, {"--force", "--fixed-vertices", pins}), "is read; choose another folder");
+  EXPECT_EQ(read_text(pins), "0 1 2\n");
   fs::create_symlink(trajectory(), folder.path("frames.blocks"));
   refuses(with_run({folder.path("frames.blocks")}, {"--force"}), "is read; choose another folder");
   EXPECT_TRUE(read_text(trajectory()) == before);

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "tests/app/repair/repair_fixture.h"
+#include "trajectory/blocks/folder_lock.h"
 
 namespace noli::app_tests {
 namespace {
@@ -277,6 +278,33 @@ TEST_F(Repair, WhatWasChangedBeforeIsStillKnown) {
   EXPECT_NE(damaged.err.find("changed.jsonl"), std::string::npos) << damaged.err;
 }
 
+TEST_F(Repair, OneRepairAtATimeWritesToAFolder) {
+  const Words frames = falling({1, -0.5});
+  fs::create_directory(folder.path("out"));
+  const FolderLock lock(folder.path("out"));
+  const Process process = run_noli(repair(frames));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("is being written by"), std::string::npos) << process.err;
+  EXPECT_FALSE(fs::exists(folder.path("out/times.csv")));
+}
+
+TEST_F(Repair, NamesAndNumbersAreNotMistakenForEachOther) {
+  falling({1, 0.5});
+  const auto still = [&](const std::string& name, double x) {
+    for (const char* frame : {"_0.ply", "_1.ply"}) {
+      folder.write(name + frame, ply_text({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}, {{0, 1, 2}}));
+    }
+    return folder.path(name + "_*.ply");
+  };
+  const Words bodies = {"--body", "x=" + folder.path("in_*.ply"), "--body", "3 man=" + still("y", 9),
+                        "--body", "man=" + still("z", 19)};
+  ASSERT_EQ(run_noli(repair({}, bodies + Words{"--fixed", "3 man"})).exit_code, 0);
+  const Words other = {"--fixed-vertices", folder.write("pins.txt", "3\n"), "--fixed", "man", "--resume"};
+  const Process process = run_noli(repair({}, bodies + other));
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("with other options"), std::string::npos) << process.err;
+}
+
 TEST_F(Repair, AStartThatTouchesLeavesNothing) {
   EXPECT_EQ(run_noli(repair(falling({0, 1}))).exit_code, 1);
   EXPECT_FALSE(fs::exists(folder.path("out/times.csv")));
@@ -350,6 +378,10 @@ TEST_F(Repair, OtherOutputsAreNoFramesAndNoInputsAreReplaced) {
   const std::string masses = folder.write("out/times.csv", "1 1 1 1 1 1\n");
   EXPECT_EQ(run_noli(repair(frames, {"--force", "--masses", masses})).exit_code, 3);
   EXPECT_EQ(read_text(masses), "1 1 1 1 1 1\n");
+  const std::string pins = folder.write("out/7.ply", "0 1 2\n");
+  const Words over = {"repair", "-o", folder.path("out/%d.ply"), "--fixed-vertices", pins, "--force"};
+  EXPECT_EQ(run_noli(over + frames).exit_code, 3);
+  EXPECT_EQ(read_text(pins), "0 1 2\n");
 }
 
 TEST_F(Repair, AFaceWithTwoEqualVerticesHearsItsLimit) {
