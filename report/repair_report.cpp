@@ -99,6 +99,27 @@ std::string rows_of_steps(const RepairOutcome& outcome, std::size_t first, std::
   return text;
 }
 
+/// What was aimed at, what moved as given, and where the times and the motion are.
+std::string files_and_settings(const RepairRequest& request, const RepairOutcome& outcome) {
+  std::string text =
+      fmt::format("Aimed at: a gap of {} where cells are largest. ", distance_text(outcome.thickness, outcome));
+  if (outcome.fixed > 0) {
+    text += fmt::format("{} of {} vertices move as given. ", outcome.fixed, outcome.vertices);
+  }
+  text += "Times of the frames: " + on_one_line(outcome.times.string());
+  if (outcome.run_begun) text += ". Their motion: " + on_one_line(request.run->string());
+  return text + '\n';
+}
+
+/// The files that were written.
+std::string rows_of_frames(const RepairOutcome& outcome) {
+  std::string text = fmt::format("{:>10}  {:>8}  file\n", "time", "");
+  for (const RepairedFrame& frame : outcome.written) {
+    text += fmt::format("{:>10}  {:>8}  {}\n", digits4(frame.time), frame.what, on_one_line(frame.facts.file));
+  }
+  return text;
+}
+
 constexpr std::size_t most_steps = 12;
 
 /// The table of the first steps, and what stands below it.
@@ -134,7 +155,10 @@ std::string repair_place(const RepairOutcome& outcome) {
   };
   const auto settled = [&outcome] {
     const VerifyOutcome& verified = *outcome.verified;
-    if (verified.verdict == Verdict::undecided) return std::string("all are written, but the last check was cut short");
+    if (verified.verdict == Verdict::undecided) {
+      return std::string("all are written, but the last check was cut short") +
+             (verified.proof_begun ? ", and the proof with it" : "");
+    }
     const std::string stated = nothing_touches_text(verified);
     if (!verified.checker) return stated + " (decided exactly, not checked)";
     return fmt::format("{} (accepted by {} {})", stated, verified.checker->name, verified.checker->version);
@@ -170,8 +194,8 @@ std::string repair_advice(const RepairRequest& request, const RepairOutcome& out
     case RepairEnd::done:
       return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : spread;
     case RepairEnd::start_touches:
-      return "separate them in the first frame, or leave them out: with --only-new all that intersects there, with "
-             "--ignore groups of vertices; these may then pass through each other.";
+      return "separate them in the first frame, or let them pass through each other: --only-new for all that "
+             "intersects there, --ignore for groups of vertices.";
     case RepairEnd::blocked:
       return "let fewer vertices be fixed (--fixed, --fixed-first), or leave the pair out with --ignore.";
     case RepairEnd::undecided:
@@ -247,8 +271,8 @@ Answer repair_answer(const RepairRequest& request, const RepairOutcome& outcome)
   }
   if (outcome.end != RepairEnd::start_touches && outcome.thickness > 0) {
     put_steps(outcome, answer);
-    answer.text += fmt::format("Aimed at: a gap of {} where cells are largest. Times of the frames: {}\n",
-                               distance_text(outcome.thickness, outcome), on_one_line(outcome.times.string()));
+    answer.text += files_and_settings(request, outcome);
+    answer.details += rows_of_frames(outcome);
   }
   answer.next = repair_advice(request, outcome);
   answer.place = repair_place(outcome);
