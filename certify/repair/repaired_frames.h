@@ -36,8 +36,9 @@ class RepairedFrames {
     std::vector<Position> positions;
     std::vector<std::string> changed;  ///< lines of these steps
   };
-  /// With `resume`, where an earlier repair ended; nothing if it has not done a step. `mesh`: that of all frames. Throws
-  /// InputError for a frame of another mesh, for one with other bytes than were written, and for a damaged table.
+  /// With `resume`, where an earlier repair ended; nothing if it has not done a step. `mesh`: that of all frames.
+  /// Throws InputError for a frame of another mesh, for one with other bytes than were written, and for a damaged
+  /// table.
   std::optional<Last> last(const Mesh& mesh);
   /// Writes the files beside the frames as they are after last(). From now on the repair can be resumed.
   void begin();

@@ -43,8 +43,8 @@ class RepairedRun {
 
   /// Throws UsageError if the folder has something that is not to be replaced; changes nothing.
   void require_room(bool force) const { folder_.require_room(force); }
-  /// Creates the folder; with `force`, removes the run in it first. With `resume`, the run in it is removed if it is one
-  /// of this repair. Throws UsageError, InputError, std::system_error.
+  /// Creates the folder; with `force`, removes the run in it first. With `resume`, the run in it is removed if it is
+  /// one of this repair. Throws UsageError, InputError, std::system_error.
   void begin(bool force, bool resume);
   /// Goes on after so many steps, the last of which ends at x. False if `stop` returned true. Throws UsageError,
   /// InputError: no run, or not of this repair.

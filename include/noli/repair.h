@@ -21,8 +21,8 @@
 // Thickness, stiffness and step of the layers of contact decide how far vertices are moved and how long that takes,
 // never whether the answer is true: every step that is written has been decided in exact arithmetic.
 //
-// Units: those of the files; times in steps (in a run, seconds). Errors: as run_repair says. Thread safety: any number of
-// repairs may run at once, each with its own pattern, run and stop; nothing is printed.
+// Units: those of the files; times in steps (in a run, seconds). Errors: as run_repair says. Thread safety: any number
+// of repairs may run at once, each with its own pattern, run and stop; nothing is printed.
 #pragma once
 
 #include <array>
@@ -150,15 +150,15 @@ struct RepairOutcome {
   std::vector<FrameFacts> inputs;         ///< the given files
   std::vector<RepairedFrame> written;     ///< by this call and those before it (resume), in the order of time
   bool run_begun = false;                 ///< `run` of the request has the motion so far
-  /// Of the run's windows by this call, those that have the straight lines between the new frames, since the motion that
-  /// was filtered touches once its times are rounded.
+  /// Of the run's windows by this call, those that have the straight lines between the new frames, since the motion
+  /// that was filtered touches once its times are rounded.
   std::uint64_t straight_windows = 0;
   std::vector<std::string> notes;
   double seconds = 0;  ///< wall clock
 };
 
-/// Throws InputError, UsageError (the pattern; the folder of the run; options that do not go together), WriteError and std::system_error (the
-/// disk), std::bad_alloc.
+/// Throws InputError, UsageError (the pattern; the folder of the run; options that do not go together), WriteError and
+/// std::system_error (the disk), std::bad_alloc.
 RepairOutcome run_repair(const RepairRequest& request);
 
 }  // namespace noli

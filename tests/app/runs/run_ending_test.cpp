@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"
+#include "trajectory/blocks/run_file.h"
 
 namespace noli::app_tests {
 namespace {
