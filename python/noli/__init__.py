@@ -26,6 +26,7 @@ from ._queries import (
     vertex_vertex_contact,
 )
 from ._repair import Repaired, read_frames, repair
+from ._run import Run, open_run
 from ._simulate import Simulation, Window, simulate
 from ._steps import (
     Certifier,
@@ -58,6 +59,7 @@ __all__ = [
     "NotProved",
     "Repaired",
     "Result",
+    "Run",
     "Simulation",
     "Stopped",
     "UsageError",
@@ -71,6 +73,7 @@ __all__ = [
     "fuzz_queries",
     "join_checks",
     "largest_min_distance",
+    "open_run",
     "read_frames",
     "repair",
     "self_intersections",

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from ._errors import UsageError
 
@@ -89,3 +89,21 @@ def stem(file: Any) -> str:
 def threads_of(value: int) -> int:
     """0: all there are. Raises UsageError."""
     return whole(value, "threads", 0, MOST_THREADS)
+
+
+def view_options(
+    view: Optional[Tuple[float, float, float]], size: Optional[Tuple[int, int]], zoom: Optional[str]
+) -> Dict[str, Any]:
+    """Of pictures. Raises UsageError."""
+    options: Dict[str, Any] = {}
+    if view is not None:
+        options["view"] = [float(x) for x in view]
+        if len(options["view"]) != 3 or not any(options["view"]):
+            raise UsageError(f"view: expected three numbers that are not all 0, found {view!r}")
+    if size is not None:
+        if len(size) != 2:
+            raise UsageError(f"size: expected width and height, found {size!r}")
+        options["size"] = [whole(pixels, "size", 16, 8192) for pixels in size]
+    if zoom is not None:
+        options["zoom"] = str(zoom)
+    return options

@@ -28,6 +28,7 @@ from ._options import (
     stem,
     threads_of,
     time_limit_of,
+    view_options,
     whole,
 )
 from ._types import Bodies, Floats, Frames, Integers, Json, Mesh, Path, Progress
@@ -87,6 +88,31 @@ class Repaired:
             raise UsageError("report: shows the frames in files; pass output= to noli.repair")
         require_new(file, force, [frame["file"] for key in ("inputs", "outputs") for frame in self._json[key]])
         self._repair.report(os.fspath(file), title or stem(file))
+
+    def to_png(
+        self,
+        file: Path,
+        time: float,
+        *,
+        given: bool = False,
+        view: Optional[Tuple[float, float, float]] = None,
+        size: Optional[Tuple[int, int]] = None,
+        zoom: Optional[str] = None,
+        force: bool = False,
+    ) -> None:
+        """Writes a picture of the repaired motion, or with ``given`` of the one before, at a time in steps.
+
+        Both have the same view. Needs ``output``. ``view``: the direction in which the eye is; ``size``: width and height
+        [pixels]; ``zoom``: the body that fills it.
+        """
+        if not self._kept:
+            raise UsageError("to_png: shows the frames in files; pass output= to noli.repair")
+        if not os.fspath(file).endswith(".png"):
+            raise UsageError(f"{os.fspath(file)}: expected a name that ends in .png")
+        require_new(file, force, [frame["file"] for key in ("inputs", "outputs") for frame in self._json[key]])
+        if not len(self.times) or not 0 <= time <= self.times[-1]:
+            raise InputError(f"time: expected 0 to {max(self.times, default=0):g} steps, found {time!r}")
+        self._repair.picture(os.fspath(file), float(time), bool(given), view_options(view, size, zoom))
 
     def text(self) -> str:
         """What ``noli repair`` prints."""

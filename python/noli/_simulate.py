@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from typing import Any, List, NoReturn, Optional, Union
+from typing import Any, List, NoReturn, Optional, Tuple, Union
 
 from . import _core
 from ._errors import NotProved
@@ -16,7 +16,7 @@ from ._words import no_truth
 
 
 class Window:
-    """A piece of simulated time that was decided to be free of contact, and is on disk.
+    """A piece of a run's time that was decided to be free of contact, and is on disk.
 
     Attributes
     ----------
@@ -31,6 +31,10 @@ class Window:
         "held_work", "restitution_work" and "integration", what finite steps did.
     momentum, angular_momentum : list of 3
         [N s], [N m s]
+    frames : list of (time, (vertices, 3) float64)
+        Within it, in a run that recorded frames alone; else empty.
+
+    In a run of ``noli.repair`` velocities are 0, and energies and momenta empty.
     """
 
     index: int
@@ -41,6 +45,7 @@ class Window:
     energies: Json
     momentum: List[float]
     angular_momentum: List[float]
+    frames: List[Tuple[float, Floats]]
 
     def __init__(self, found: Json) -> None:
         self.__dict__.update(found)

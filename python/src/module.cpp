@@ -20,6 +20,7 @@ PYBIND11_MODULE(_core, core) {
   bind_queries(core);
   bind_steps(core);
   bind_simulate(core);
+  bind_run(core);
   bind_repair(core);
   bind_fuzz(core);
 }

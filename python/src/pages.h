@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pages for a browser, as `noli report` writes them.
+// Pages for a browser and pictures, as `noli report` and `noli export` write them.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,8 @@
 #include <string>
 
 #include <noli/errors.h>
+#include "python/src/options.h"
+#include "report/figures/run_picture.h"
 #include "report/page/report_page.h"
 #include "report/page/report_verdict.h"
 #include "trajectory/write_file.h"
@@ -25,6 +27,15 @@ inline void write_page(const std::filesystem::path& file, const std::string& tit
   fill(page);
   page.page["title"] = title;
   replace_file(file, report::report_html(page));
+}
+
+/// "view", "size", "zoom": how a picture shows a motion.
+inline report::PictureView picture_view(const pybind11::dict& options) {
+  report::PictureView view;
+  put(options, "view", view.from);
+  put(options, "size", view.size);
+  put(options, "zoom", view.zoom);
+  return view;
 }
 
 }  // namespace noli::python

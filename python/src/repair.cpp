@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "python/src/options.h"
 #include "python/src/pages.h"
 #include "report/documents.h"
+#include "report/figures/repair_picture.h"
 #include "report/page/report_repair.h"
 #include "report/repair_report.h"
 #include "trajectory/blocks/frames_file.h"
@@ -94,6 +96,29 @@ class Repair {
   /// A page with both motions, as `noli report` makes it of a result with the name `title`. All frames have to be as
   /// they were.
   void report(const fs::path& file, const std::string& title) {
+    with_result([&](const Json& result) {
+      write_page(file, title, [&](report::ReportPage& page) { report::report_repair(result, title, {}, page); });
+    });
+  }
+
+  /// A picture of the repaired motion, or of the given one, at a time in steps.
+  void picture(const fs::path& file, double time, bool given, const py::dict& options) {
+    report::RepairPictureRequest request;
+    request.time = time;
+    request.given = given;
+    request.view = picture_view(options);
+    request.output = file;
+    with_result([&](const Json& result) {
+      const ScratchFolder folder;
+      request.result = folder.path() / "result.json";
+      replace_file(request.result, to_text(result));
+      report::repair_picture(request);
+    });
+  }
+
+ private:
+  /// Calls `use` with the result, which names files: frames in memory are one for as long as it works.
+  void with_result(const std::function<void(const Json&)>& use) {
     const auto alone = one_at_a_time_.enter();
     in_background([&](Background& background) {
       const ScratchFolder folder;
@@ -106,11 +131,10 @@ class Repair {
         }
         result["inputs"][0]["file"] = frames_file.string();
       }
-      write_page(file, title, [&](report::ReportPage& page) { report::report_repair(result, title, {}, page); });
+      use(result);
     });
   }
 
- private:
   /// Frames in memory as a file, for as long as the folder is there.
   fs::path write_given_frames(const ScratchFolder& folder) const {
     fs::path file = folder.path() / "frames.blocks";
@@ -161,6 +185,7 @@ void bind_repair(py::module_& core) {
       .def(py::init<const py::object&, const py::object&, std::string, const py::dict&, bool, const py::object&>())
       .def("json", &Repair::json)
       .def("report", &Repair::report)
+      .def("picture", &Repair::picture)
       .def("text", &Repair::text);
   core.def("read_frames", &read_frames);
 }

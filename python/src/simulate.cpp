@@ -16,10 +16,10 @@
 #include <utility>
 
 #include "certify/runs/run_series_reader.h"
-#include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/bindings.h"
 #include "python/src/options.h"
+#include "python/src/series.h"
 #include "report/documents.h"
 #include "report/simulate_report.h"
 #include "trajectory/stop.h"
@@ -28,26 +28,6 @@ namespace noli::python {
 namespace {
 
 namespace py = pybind11;
-
-py::dict by_kind(const std::array<double, force_kinds>& numbers) {
-  py::dict named;
-  for (std::size_t k = 0; k < force_kinds; ++k) {
-    named[py::str(std::string(name(static_cast<ForceKind>(k))))] = numbers[k];
-  }
-  return named;
-}
-
-py::dict energies_of(const SeriesRow& row) {
-  py::dict energies;
-  energies["kinetic"] = row.kinetic_mean;
-  energies["potential"] = by_kind(row.potential);
-  energies["total"] = row.energy();
-  energies["damping_work"] = by_kind(row.damping_work);
-  energies["held_work"] = by_kind(row.held_work);
-  energies["restitution_work"] = row.restitution_work;
-  energies["integration"] = row.integration;
-  return energies;
-}
 
 /// A simulation in a thread of its own, which is at most one window ahead of who asks for windows.
 class Simulation {
@@ -86,16 +66,7 @@ class Simulation {
       const py::gil_scoped_release unlocked;
       window = read_up_to(row->time);
     }
-    py::dict found;
-    found["index"] = window->index + 1;
-    found["begin"] = window->begin;
-    found["end"] = window->end;
-    found["positions"] = array_of(window->positions);
-    found["velocities"] = array_of(window->velocities);
-    found["energies"] = energies_of(*row);
-    found["momentum"] = row->momentum;
-    found["angular_momentum"] = row->angular_momentum;
-    return found;
+    return window_of(*window, &*row);
   }
 
   /// Ends it at the last committed window, and waits for that.
