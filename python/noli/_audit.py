@@ -57,7 +57,7 @@ class Finding:
 
     def save(self, file: Path, *, force: bool = False) -> None:
         """Writes a .csv file that ``noli ccd`` and ``noli audit ccd`` read. Its name has to contain the pair, "edge-edge"."""
-        if self.pair.replace("_", "-") not in os.path.basename(os.fspath(file)):
+        if self.pair not in os.path.basename(os.fspath(file)).replace("-", "_"):
             raise UsageError(f"{os.fspath(file)}: expected a name that contains {self.pair.replace('_', '-')}")
         require_new(file, force)
         comments = [f"# {self.fault}: {self.answer}, the truth is {self.kind}, t = {self.time}"]
@@ -179,7 +179,8 @@ def audit_ccd(
     ----------
     function : callable
         ``function(pair, x_t0, x_t1)``, pair "vertex_face" or "edge_edge", (m, 4, 3) float64 each. Returns (m,) bool, or
-        (m,) times of impact in [0, 1], NaN or infinite for no contact.
+        (m,) times of impact in [0, 1], NaN or infinite for no contact. A time is late if it is above the exact one,
+        however little: round down.
     queries : dict of pair to (x_t0, x_t1)
         (m, 4, 3) each.
     exact : bool
@@ -197,8 +198,8 @@ def audit_ccd(
     InputError
         Queries, or answers, of another shape or type. What the function raises is passed on.
     """
-    if not hasattr(queries, "items"):
-        raise UsageError("queries: expected a dict of pair to (x_t0, x_t1)")
+    if not hasattr(queries, "items") or not queries:
+        raise UsageError("queries: expected a dict of pair to (x_t0, x_t1), with one pair at least")
     audit = Audit(exact, max_findings)
     for pair, (x_t0, x_t1) in queries.items():
         _require_pair(pair)
@@ -233,6 +234,8 @@ def fuzz_queries(
         raise UsageError(f"pairs: expected one of {', '.join(ASKED)} at least")
     for pair in pairs:
         _require_pair(pair)
+    if count is not None:
+        whole(count, "count", 1)
     limit = LONGEST if seconds is None else distance(seconds, "seconds")
     audit, end, each, round_number = Audit(exact, max_findings), clock.monotonic() + limit, 64, 0
     while clock.monotonic() < end and (count is None or audit.asked < count):

@@ -38,7 +38,8 @@ class Contact(NotProved):
     """Something touches.
 
     ``time`` is when first, in [0, 1] of the step, rounded down; None where cells intersect as the step begins.
-    ``pairs`` are the listed contacts, as ``Result.contacts``; of a Certifier with the fields pair and vertices alone.
+    ``pairs`` are the listed contacts, as ``Result.contacts``, in no order; of a Certifier with the fields pair and
+    vertices alone. ``result.features`` and ``result.point`` of a Certifier are those of the first contact.
     """
 
     def __init__(self, text: str, result: Any, time: Optional[float], pairs: Any) -> None:

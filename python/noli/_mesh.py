@@ -31,6 +31,8 @@ class CollisionMesh:
     ignore : list of pairs of names, optional
         Bodies whose cells are not compared with each other; ``("a", "a")``: not with those of the same body.
 
+    All of these are attributes too, as arrays, and ``bodies`` as a dict of them; ``body_of_vertex(v)`` names a body.
+
     Features of cells are compared if they share no vertex. Cells are numbered: faces, then edges, then points.
 
     Raises

@@ -36,14 +36,23 @@ def time_limit_of(value: Optional[float]) -> Dict[str, float]:
     """As an option; nothing for None."""
     if value is None:
         return {}
-    if not value > 0:
-        raise UsageError(f"time_limit: expected seconds, found {value!r}")
-    return {"time_limit": min(float(value), LONGEST)}
+    seconds = _float(value, "time_limit")
+    if not seconds > 0:
+        raise UsageError(f"time_limit: expected a positive number of seconds, found {value!r}")
+    return {"time_limit": min(seconds, LONGEST)}
+
+
+def _float(value: Any, name: str) -> float:
+    """Raises UsageError."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: expected a number, found {value!r}") from None
 
 
 def distance(value: float, name: str) -> float:
     """Finite and not negative. Raises UsageError."""
-    number = float(value)
+    number = _float(value, name)
     if not math.isfinite(number) or number < 0:
         raise UsageError(f"{name}: expected a finite number that is not negative, found {value!r}")
     return number

@@ -233,7 +233,10 @@ def repair(
         if masses is not None:
             options["masses"] = _masses(masses, scratch)
         pattern = os.fspath(output) if output is not None else os.path.join(scratch, "frame_%06d.ply")
-        done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, output is not None, told)
+        try:
+            done = _core.Repair(given, None if names is not None else given.mesh, pattern, options, output is not None, told)
+        except (InputError, UsageError) as error:
+            raise type(error)(_without_scratch(str(error), scratch)) from None
         return Repaired(done, *_read(json.loads(done.json())), kept=output is not None)
 
 
@@ -285,6 +288,12 @@ def _masses(masses, scratch):
     with open(file, "w", encoding="ascii") as out:
         out.writelines(f"{mass!r}\n" for mass in array.tolist())
     return file
+
+
+def _without_scratch(text, scratch):
+    """A message about a file that this call wrote for what it was given: says what that was."""
+    text = text.replace(os.path.join(scratch, "masses.txt"), "masses")
+    return re.sub(r"\S*/noli-scratch-\w+/frames\.blocks", "frames", text)
 
 
 def _read(result):

@@ -9,7 +9,7 @@ import tempfile
 from typing import Any, List, NoReturn, Optional, Tuple, Union
 
 from . import _core
-from ._errors import NotProved
+from ._errors import InputError, NotProved, UsageError
 from ._options import distance, threads_of, time_limit_of
 from ._types import Floats, Json, Path
 from ._words import no_truth
@@ -27,8 +27,8 @@ class Window:
     positions, velocities : (vertices, 3) float64
         At its end [m], [m/s].
     energies : dict
-        At its end [J]: "kinetic", "potential" by kind of force, "total"; within it the work of "damping_work",
-        "held_work", "restitution_work" and "integration", what finite steps did.
+        At its end [J]: "kinetic", "potential" by kind of force, and "total", their sum. Of the window [J]: the works
+        "damping_work", "held_work" and "restitution_work", and "integration", what finite steps did.
     momentum, angular_momentum : list of 3
         [N s], [N m s]
     frames : list of (time, (vertices, 3) float64)
@@ -68,12 +68,15 @@ class Simulation:
         self.run = os.fspath(run)
         self._scene_file: Any = None
         if isinstance(scene, dict):
+            text = _text_of(scene)
             self._scene_file = tempfile.NamedTemporaryFile("w", suffix=".json")
-            json.dump(_with_whole_paths(scene), self._scene_file, default=lambda array: array.tolist())
+            self._scene_file.write(text)
             self._scene_file.flush()
             file = self._scene_file.name
-        else:
+        elif isinstance(scene, (str, os.PathLike)) and not os.fspath(scene).lstrip().startswith("{"):
             file = os.fspath(scene)
+        else:
+            raise UsageError("scene: expected the name of a file, or a dict (json.loads makes one of text)")
         self._simulation = _core.Simulation(file, self.run, options)
 
     def __iter__(self) -> Simulation:
@@ -82,6 +85,12 @@ class Simulation:
     def __next__(self) -> Window:
         try:
             found = self._simulation.next()
+        except (InputError, UsageError) as error:
+            name = self._scene_file.name if self._scene_file is not None else None
+            self.close()
+            if name is None or name not in str(error):
+                raise
+            raise type(error)(str(error).replace(name, "scene")) from None
         except BaseException:
             self.close()
             raise
@@ -143,7 +152,8 @@ def simulate(
     Parameters
     ----------
     scene : path, or dict
-        ``noli schema scene`` says what can be in it. Meshes in files that a dict names are found from the working folder.
+        docs/reference/scene.md says what can be in it, as does ``noli schema scene``. Meshes in files that a dict names
+        are found from the working folder.
     run : path
         The folder that is made for it; ``noli.verify(run)`` verifies it again, from its files alone.
     short : bool
@@ -165,6 +175,8 @@ def simulate(
     InputError, UsageError, OSError
         When the first window is asked for.
     """
+    if resume and force:
+        raise UsageError("resume, force: expected one of them at most")
     options: Json = {
         "short": bool(short),
         "resume": bool(resume),
@@ -178,6 +190,14 @@ def simulate(
     if until is not None:
         options["until"] = distance(until, "until")
     return Simulation(scene, run, options)
+
+
+def _text_of(scene):
+    """A dict as JSON. Raises InputError."""
+    try:
+        return json.dumps(_with_whole_paths(scene), default=lambda array: array.tolist(), allow_nan=False)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise InputError(f"scene: expected texts, finite numbers, lists, arrays and dicts: {error}") from None
 
 
 def _with_whole_paths(value):

@@ -212,7 +212,7 @@ class Certifier:
     Attributes
     ----------
     x : (vertices, 2 or 3)
-        Where the mesh is.
+        Where the mesh is: a copy.
     steps : int
         How many steps were free.
 
@@ -226,16 +226,24 @@ class Certifier:
     def __init__(
         self, mesh: Mesh, x0: ArrayLike, *, dimension: Optional[int] = None, threads: int = 0, max_reports: int = 100
     ) -> None:
-        self.x, self.mesh = positions(x0, "x0").copy(), as_mesh(mesh)
-        self.mesh._require_vertices(len(self.x))
-        self.steps = 0
-        self._dimension = self.x.shape[1] if dimension is None else dimension  # a step may leave the plane of those before it
+        self._x, self.mesh = positions(x0, "x0").copy(), as_mesh(mesh)
+        self.mesh._require_vertices(len(self._x))
+        self._steps = 0
+        self._dimension = self._x.shape[1] if dimension is None else dimension  # a step may leave the plane of those before it
         self._threads, self._reports = threads, max_reports
-        found = self_intersections(self.x, self.mesh, dimension=self._dimension, threads=threads, max_reports=max_reports)
+        found = self_intersections(self._x, self.mesh, dimension=self._dimension, threads=threads, max_reports=max_reports)
         if found.count:
             raise Contact(f"x0: {found.count} pairs of cells intersect", found, None, np.empty(0, CONTACTS))
         self._decide: Any = None
         self._lock = threading.RLock()
+
+    @property
+    def x(self) -> Floats:
+        return self._x.copy()
+
+    @property
+    def steps(self) -> int:
+        return self._steps
 
     def __repr__(self) -> str:
         return f"<noli.Certifier: {self.steps} free steps, {self.mesh!r}>"
@@ -254,17 +262,17 @@ class Certifier:
             return self._step(positions(x, "x"))
 
     def _step(self, there: Any) -> Impact:
-        if there.shape != self.x.shape:
-            raise InputError(f"x: has the shape {there.shape}; expected {self.x.shape}")
+        if there.shape != self._x.shape:
+            raise InputError(f"x: has the shape {there.shape}; expected {self._x.shape}")
         if self._decide is None:
-            self._decide = _steps_of(self.mesh, self.x, there, self._dimension, False, self._threads, self._reports)
-        touches = self._decide.step(self.x, there)
+            self._decide = _steps_of(self.mesh, self._x, there, self._dimension, False, self._threads, self._reports)
+        touches = self._decide.step(self._x, there)
         impact = Impact(touches, None if self._decide.intersection_count() else self._decide.first())
         if touches:
             count = self._decide.contact_count()
             text = f"step {self.steps + 1}: {count} pairs of features touch, first at t = {impact.time}"
             raise Contact(text, impact, impact.time, self._pairs())
-        self.x, self.steps = there.copy(), self.steps + 1
+        self._x, self._steps = there.copy(), self._steps + 1
         return impact
 
     def _pairs(self):

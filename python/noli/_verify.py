@@ -281,7 +281,7 @@ def verify(
         Has the checker look at the proof: only then a verdict is "proved".
     min_distance : float
         All features must stay more than this apart, in the unit of the positions; those fewer than ``ring`` mesh edges
-        apart need only be disjoint.
+        apart need only be disjoint (``ring`` goes with ``min_distance`` alone).
     only_new : bool
         Leaves out pairs of cells that intersect in the first frame.
     at_rest : bool
@@ -297,7 +297,7 @@ def verify(
     keep_going : bool
         Goes through all steps instead of stopping after the first with contacts.
     first_only : bool
-        Stops at any contact.
+        Stops at any contact; ``first`` is then that one, and there may be earlier ones.
     max_reports : int
         How many contacts are listed; counts do not depend on it.
     threads : int
@@ -349,6 +349,10 @@ def verify(
         **dimension_of(dimension),
         **time_limit_of(time_limit),
     }
+    if options["ring"] != 1 and options["min_distance"] == 0:
+        raise UsageError("ring: says who may be nearer than min_distance; expected min_distance, too")
+    if first_only and keep_going:
+        raise UsageError("first_only, keep_going: expected one of them at most")
     bodies = bodies_in_files(frames, obstacles)
     names = file_names(frames)
     if proof is not None:

@@ -75,6 +75,9 @@ class Outcome {
     } else {
       name_files(frames.cast<std::vector<std::filesystem::path>>());
     }
+    // Its motion goes to the checker on its way.
+    request_.lines_in_no_file =
+        request_.reproduce && request_.run && RunReader(request_.frames[0]).header().record == RecordMode::frames;
     run(progress);
   }
 

@@ -119,6 +119,12 @@ class Audit(TestCase):
         half = len(asked) // 2
         self.assertTrue(all(np.array_equal(a, b) for a, b in zip(asked[:half], asked[half:])))
 
+    def test_nothing_to_ask(self):
+        with self.assertRaises(noli.UsageError):
+            noli.fuzz_queries(lambda pair, x_t0, x_t1: np.zeros(len(x_t0), bool), count=0)
+        with self.assertRaises(noli.UsageError):
+            noli.audit_ccd(lambda pair, x_t0, x_t1: np.zeros(len(x_t0), bool), {})
+
     def test_bad_answers(self):
         for answers in (lambda pair, a, b: np.zeros(len(a), int), lambda *_: True, lambda pair, a, b: np.zeros(3), lambda pair, a, b: np.full(len(a), "no")):
             with self.assertRaises(noli.InputError):

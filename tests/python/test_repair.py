@@ -158,8 +158,10 @@ class Repair(TestCase):
             noli.repair(self.V, self.mesh, fixed=[128])
         with self.assertRaises(noli.InputError):
             noli.repair(np.full_like(self.V, np.inf), self.mesh)
-        with self.assertRaises(noli.InputError):
+        with self.assertRaisesRegex(noli.InputError, "^masses"):
             noli.repair(self.V, self.mesh, masses=np.zeros(128))
+        with self.assertRaisesRegex(noli.InputError, "^frames"):
+            noli.repair(self.V[:1], self.mesh)
         for wrong in ({"masses": "heavy"}, {"spread": -1}, {"dimension": 5}, {"restitution": 2}, {"friction": -1},
                       {"thickness": 0}, {"order": "natural"}, {"ignore": "a.json"}, {"time_limit": -1}):
             with self.assertRaises(noli.UsageError):

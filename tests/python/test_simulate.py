@@ -92,6 +92,28 @@ class Simulate(TestCase):
         self.assertEqual(simulation.verdict, "undecided")
         shutil.rmtree(run)
 
+    def test_a_run_that_recorded_frames_is_made_again(self):
+        run = self.folder / "run"
+        noli.simulate(dict(SCENE, record="frames", frame_rate=100), run).finish()
+        with self.assertRaises(noli.NoliError):
+            noli.verify(run)
+        self.assertEqual(noli.verify(run, reproduce=True).verdict, "proved")
+
+    def test_what_is_no_scene(self):
+        run = self.folder / "run"
+        for wrong, text in (
+            (["a list"], "expected the name of a file, or a dict"),
+            (json.dumps(SCENE), "expected the name of a file, or a dict"),
+            (dict(SCENE, duration=float("nan")), "finite numbers"),
+            (dict(SCENE, title=b"bytes"), "expected texts"),
+            (dict(SCENE, duration=-1), "^scene: /duration"),
+        ):
+            with self.assertRaisesRegex(noli.NoliError, text):
+                noli.simulate(wrong, run).finish()
+        with self.assertRaisesRegex(noli.UsageError, "resume, force"):
+            noli.simulate(SCENE, run, resume=True, force=True)
+        self.assertFalse(run.exists())
+
     def test_contact(self):
         scene = ROOT / "scenes" / "sheet_through_sheet.json"
         simulation = noli.simulate(scene, self.folder / "run", short=True)

@@ -167,6 +167,19 @@ class Steps(TestCase):
             with self.assertRaises(noli.UsageError):
                 noli.Certifier(self.mesh, self.V[0], **wrong)
 
+    def test_what_a_certifier_shows_changes_nothing(self):
+        lower, faces = [[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2], [3, 4, 5]]
+        certifier = noli.Certifier(faces, np.array(lower + [[1, 1, 1], [2, 1, 1], [1, 2, 1]], float))
+        with self.assertRaises(noli.Contact):
+            for _ in range(4):
+                x = certifier.x
+                x[3:, 2] -= 0.6
+                certifier.step(x)
+        self.assertEqual(certifier.steps, 1)
+        for name in ("x", "steps"):
+            with self.assertRaises(AttributeError):
+                setattr(certifier, name, 0)
+
     def test_certifier_keeps_its_own_positions(self):
         x = self.V[0].copy()
         certifier = noli.Certifier(self.mesh, x)

@@ -438,6 +438,18 @@ class BadInput(TestCase):
         with self.assertRaises(noli.UsageError):
             noli.check(__file__, ["a.obj", "b.obj"], order="nonsense")
 
+    def test_options_that_do_not_go_together(self):
+        V, F, _ = falling_sheet()
+        for options, text in (
+            ({"ring": 3}, "expected min_distance, too"),
+            ({"first_only": True, "keep_going": True}, "expected one of them at most"),
+            ({"min_distance": "1mm"}, "min_distance: expected a number"),
+            ({"time_limit": "soon"}, "time_limit: expected a number"),
+            ({"time_limit": 0}, "a positive number of seconds"),
+        ):
+            with self.assertRaisesRegex(noli.UsageError, text):
+                noli.verify(V[:3], F, **options)
+
     def test_mixed_frames(self):
         self.refused(r"frames\[1\]: has 2 coordinates; expected 3", [self.V[0], self.V[1][:, :2]], self.F)
         mixed = noli.verify([self.V[0], self.V[1].astype(np.float32)], self.F)
