@@ -348,6 +348,23 @@ class RunVerification : private Verification {
 
 }  // namespace
 
+void VerifyRequest::prepare_to_reproduce() {
+  if (reproduce && !run) {
+    throw UsageError("--reproduce: is for a run of `noli simulate`; expected its folder, found frames");
+  }
+  lines_in_no_file = reproduce && RunReader(frames[0]).header().record == RecordMode::frames;
+  if (lines_in_no_file && follow) {
+    throw UsageError(
+        "--follow: the run recorded frames alone, whose windows are integrated again only when all are there; expected "
+        "a run with \"record\": \"full\", or no --follow");
+  }
+  if (lines_in_no_file && proof) {
+    throw UsageError(
+        "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
+        "\"full\", or no --proof");
+  }
+}
+
 VerifyOutcome run_verify_motion(const VerifyRequest& request) { return RunVerification(request)(); }
 
 }  // namespace noli

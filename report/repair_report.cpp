@@ -113,7 +113,7 @@ std::string files_and_settings(const RepairRequest& request, const RepairOutcome
 
 /// The files that were written.
 std::string rows_of_frames(const RepairOutcome& outcome) {
-  std::string text = fmt::format("{:>10}  {:>8}  file\n", "time", "");
+  std::string text = fmt::format("{:>10}  {:>8}  file\n", "time", "what");
   for (const RepairedFrame& frame : outcome.written) {
     text += fmt::format("{:>10}  {:>8}  {}\n", digits4(frame.time), frame.what, on_one_line(frame.facts.file));
   }

@@ -37,7 +37,7 @@ std::string why_ended(const RunEnding& ending) {
   if (*ending.why == "not_finite") return "numbers ran out";
   if (*ending.why == "unstable") return "no more was asked for; its energy drifts";
   if (*ending.why == "time_limit") return "time limit";
-  if (*ending.why == "blocked") return "what is fixed meets next";
+  if (*ending.why == "blocked") return "fixed vertices meet in the next step";
   if (*ending.why == "undecided") return "no way was found to repair the next step";
   return on_one_line(*ending.why);
 }

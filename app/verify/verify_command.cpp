@@ -60,24 +60,6 @@ struct VerifyArguments {
   std::optional<std::filesystem::path> shards;  ///< the folder of --shard
 };
 
-/// What goes with --reproduce, and what does not.
-void prepare_to_reproduce(VerifyRequest& request) {
-  if (request.reproduce && !request.run) {
-    throw UsageError("--reproduce: is for a run of `noli simulate`; expected its folder, found frames");
-  }
-  request.lines_in_no_file = request.reproduce && RunReader(request.frames[0]).header().record == RecordMode::frames;
-  if (request.lines_in_no_file && request.follow) {
-    throw UsageError(
-        "--follow: the run recorded frames alone, whose windows are integrated again only when all are there; expected "
-        "a run with \"record\": \"full\", or no --follow");
-  }
-  if (request.lines_in_no_file && request.proof) {
-    throw UsageError(
-        "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
-        "\"full\", or no --proof");
-  }
-}
-
 /// The files that names on the command line stand for.
 void name_frames(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
@@ -162,7 +144,7 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--trajectory: is for frames; a run has its trajectory.blocks");
   }
   request.live = request.run && is_locked(request.frames[0]);
-  prepare_to_reproduce(request);
+  request.prepare_to_reproduce();
   const auto ranks = arguments.shard.empty() ? Ranks::of_this_job() : nullptr;
   const auto output = output_of(arguments, ranks.get());
   if (arguments.outputs.github && arguments.outputs.results.json == "-") {

@@ -2,11 +2,21 @@
 #include "certify/repair/changes.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "certify/json.h"
 
 namespace noli {
+
+namespace {
+
+/// JSON has no infinity, which a square may come to.
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
+}  // namespace
 
 std::string Changes::add(RepairedStep step, const Position& momentum, std::span<const Position> x,
                          std::span<const Position> y) {
@@ -42,13 +52,13 @@ void Changes::add_line(const std::string& line) {
     json.at("step").get_to(step.step);
     json.at("inserted").get_to(step.inserted);
     json.at("moved").get_to(step.moved);
-    json.at("largest").get_to(step.largest);
-    json.at("rms").get_to(step.rms);
+    step.largest = number(json.at("largest"));
+    step.rms = number(json.at("rms"));
     json.at("vertex").get_to(step.vertex);
     json.at("deepest").get_to(step.deepest);
     std::vector<Distances> of_body;
     for (const Json& d : json.at("bodies")) {
-      of_body.emplace_back().add(d.at(0).get<std::uint64_t>(), d.at(1).get<double>(), d.at(2).get<double>(),
+      of_body.emplace_back().add(d.at(0).get<std::uint64_t>(), number(d.at(1)), number(d.at(2)),
                                  d.at(3).get<VertexId>());
     }
     if (of_body.size() != bodies_.size()) throw std::invalid_argument("other bodies");

@@ -26,7 +26,7 @@ class Distances {
     vertex_ = v;
   }
 
-  /// As many more, the sum of whose squares is given.
+  /// Adds the totals of another count.
   void add(std::uint64_t moved, double squares, double largest, VertexId vertex) {
     moved_ += moved;
     squares_ += squares;

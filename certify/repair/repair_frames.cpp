@@ -92,19 +92,19 @@ class Repair {
   /// Throws Ended, Stopped.
   void operator()() {
     bool more = true;
-    auto last = frames_.last(sequence_.mesh());
+    const auto last = frames_.last(sequence_.mesh());
+    if (last) take_over(*last);
     if (request_.only_new) leave_out_baseline();
     if (last) {
-      x_ = std::move(last->positions);
-      outcome_.steps = outcome_.steps_before = last->step;
-      for (const std::string& line : last->changed) changes_.add_line(line);
+      x_ = last->positions;
       if (run_ && !run_->go_on(last->step, x_, stop_)) end_if(true);
       frames_.begin();
       for (std::size_t k = 0; k < last->step && more; ++k) more = sequence_.next();
     } else {
       require_free_start();
-      if (run_) run_->begin(request_.force, request_.resume);
+      if (run_) run_->claim(request_.force, request_.resume);
       frames_.begin();
+      if (run_) run_->begin();
       frames_.write(0, {sequence_.mesh(), x_}, true);
       frames_.commit();
     }
@@ -243,6 +243,18 @@ class Repair {
     NotCompared left_out;
     left_out.baseline = pairs.size();
     outcome_.notes.push_back("not compared: " + baseline_text(left_out) + " (--only-new)");
+  }
+
+  /// What an earlier call has done.
+  void take_over(const RepairedFrames::Last& last) {
+    outcome_.steps = outcome_.steps_before = last.step;
+    for (std::size_t line = 0; line < last.changed.size(); ++line) {
+      try {
+        changes_.add_line(last.changed[line]);
+      } catch (const std::invalid_argument&) {
+        frames_.fail_changed(line);
+      }
+    }
   }
 
   void require_free_start() {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <utility>
 
 #include <noli/errors.h>
@@ -75,9 +76,10 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       fingerprint_(find_fingerprint()),
       state_text_(Json({{"noli_repair", 1}, {"of", hex(fingerprint_)}}).dump() + '\n'),
       resumes_(request.resume && is_there()),
-      files_(request.pattern,
-             request.force || resumes_ ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {
-  lock();
+      files_(request.pattern, request.force || resumes_ || (request.resume && has_only_begun())
+                                  ? FrameFiles::Existing::replaced
+                                  : FrameFiles::Existing::refused) {
+  lock_folder(files_.folder().empty() ? "." : files_.folder(), "-o", lock_);  // against other repairs
   for (const auto& file : files_read(request)) {
     if (!files_.may_be(file)) continue;
     throw UsageError("-o " + request.pattern + ": " + file.string() + " is read; choose another folder or name");
@@ -98,16 +100,6 @@ bool RepairedFrames::is_read(const std::filesystem::path& file) const {
   std::error_code error;
   return std::ranges::any_of(files_read(request_),
                              [&](const auto& path) { return std::filesystem::equivalent(path, file, error); });
-}
-
-/// Against another repair that writes there.
-void RepairedFrames::lock() {
-  const std::filesystem::path folder = files_.folder();
-  try {
-    lock_.emplace(folder.empty() ? "." : folder);
-  } catch (const FolderLocked& locked) {
-    throw UsageError("-o " + std::string(locked.what()) + "; expected another folder, or to wait for its end");
-  }
 }
 
 Sha256Digest RepairedFrames::find_fingerprint() const {
@@ -153,15 +145,12 @@ bool RepairedFrames::is_there() const {
                    "is of a repair of other frames, with other options or by another version; expected the same");
 }
 
-/// Whether a repair ended while it wrote its first files; with --force, the state of another repair may still be there.
+/// Whether a repair ended while it wrote its first files. The table is the first of them; with --force, the others may
+/// still be those of another repair.
 bool RepairedFrames::has_only_begun() const {
-  const auto holds = [](const std::filesystem::path& file, std::string_view text) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(file, error);
-    if (error) return !std::filesystem::exists(file);
-    return size == text.size() && (size == 0 || read_whole_file(file) == text);
-  };
-  return holds(table_, table_head) && holds(changed_, "");
+  std::error_code error;
+  return std::filesystem::file_size(table_, error) == table_head.size() && !error &&
+         read_whole_file(table_) == table_head;
 }
 
 std::optional<RepairedFrames::Last> RepairedFrames::last(const Mesh& mesh) {
@@ -207,6 +196,8 @@ void RepairedFrames::read_rows(std::vector<double>& times) {
   };
   std::getline(in, line);
   require(!in.eof() && line + '\n' == table_head, 1);
+  std::vector<RepairedFrame> written;
+  std::string rows;
   std::size_t complete = 0, complete_bytes = 0;
   bool all_there = true;
   for (std::size_t k = 0; std::getline(in, line) && !in.eof(); ++k) {
@@ -224,33 +215,47 @@ void RepairedFrames::read_rows(std::vector<double>& times) {
     }
     if (!all_there) continue;
     times.push_back(*time);
-    rows_ += line + '\n';
-    written_.push_back({*time, what, facts});
+    rows += line + '\n';
+    written.push_back({*time, what, facts});
     if (!is_whole(*time)) continue;
     complete = times.size();
-    complete_bytes = rows_.size();
+    complete_bytes = rows.size();
   }
   times.resize(complete);
-  written_.resize(complete);
-  rows_.resize(complete_bytes);
+  written.resize(complete);
+  rows.resize(complete_bytes);
+  written_ = std::move(written);
+  rows_ = std::move(rows);
 }
 
-/// The lines of the first steps. Later ones are of a step that was not committed.
+/// The lines of the first steps, one for each that has new frames at least. Later ones are of a step that was not
+/// committed.
 std::vector<std::string> RepairedFrames::read_changed(std::size_t steps) {
+  std::set<std::uint64_t> missing;
+  for (const RepairedFrame& frame : written_) {
+    if (frame.what == "inserted" || frame.what == "repaired")
+      missing.insert(static_cast<std::uint64_t>(std::ceil(frame.time)));
+  }
   std::vector<std::string> lines;
   std::ifstream in(changed_, std::ios::binary);
   std::string line;
-  while (std::getline(in, line) && !in.eof()) {
+  for (std::uint64_t before = 0; std::getline(in, line) && !in.eof();) {
     const Json json = Json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("step") || !json["step"].is_number_unsigned()) {
-      throw InputError(changed_.string(), fmt::format("line {}", lines.size() + 1),
-                       "is damaged; --force without --resume begins anew");
-    }
-    if (json["step"].get<std::uint64_t>() > steps) break;
+    const Json step = json.is_object() ? json.value("step", Json()) : Json();
+    if (!step.is_number_unsigned() || step.get<std::uint64_t>() <= before) fail_changed(lines.size());
+    before = step.get<std::uint64_t>();
+    if (before > steps) break;
+    missing.erase(before);
     changes_ += line + '\n';
     lines.push_back(line);
   }
+  if (!missing.empty()) fail_changed(lines.size());
   return lines;
+}
+
+void RepairedFrames::fail_changed(std::size_t line) const {
+  throw InputError(changed_.string(), fmt::format("line {}", line + 1),
+                   "is damaged or missing; --force without --resume begins anew");
 }
 
 std::size_t RepairedFrames::count(std::string_view what) const {

@@ -46,6 +46,9 @@ class RepairedFrames {
   /// SHA-256 of everything that decides what is written: not of threads, limits, proof or checker.
   const Sha256Digest& fingerprint() const { return fingerprint_; }
 
+  /// Throws InputError: this line of the changed steps, from 0, cannot be used.
+  [[noreturn]] void fail_changed(std::size_t line) const;
+
   /// The next frame. `time`: in steps. `given`: it is frame `time` as given, and gets the bytes of its file if that has
   /// one frame in the format of the new ones. Throws std::system_error.
   void write(double time, const Frame& frame, bool given);
@@ -60,7 +63,6 @@ class RepairedFrames {
   bool has_own_file(std::size_t k) const;
   bool is_read(const std::filesystem::path& file) const;
   Sha256Digest find_fingerprint() const;
-  void lock();
   bool is_there() const;
   bool has_only_begun() const;
   void read_rows(std::vector<double>& times);

@@ -17,13 +17,14 @@ RepairedRun::RepairedRun(const std::filesystem::path& folder, RepairedScene scen
   folder_.lock();
 }
 
-/// The scene.json of the run.
+/// The scene.json of the run. Names of files may have bytes that are not UTF-8, which are replaced.
 Json RepairedRun::document() const {
-  return {{"title", scene_.title},
-          {"dimension", scene_.run.header.dimension},
-          {"duration", static_cast<double>(scene_.steps)},
-          {"window", scene_.run.header.window_length},
-          {"repair", {{"frames", scene_.pattern}, {"sha256", hex(scene_.fingerprint)}}}};
+  const Json named = {{"title", scene_.title},
+                      {"dimension", scene_.run.header.dimension},
+                      {"duration", static_cast<double>(scene_.steps)},
+                      {"window", scene_.run.header.window_length},
+                      {"repair", {{"frames", scene_.pattern}, {"sha256", hex(scene_.fingerprint)}}}};
+  return Json::parse(to_text(named));
 }
 
 /// Precondition: the folder has a run that has begun.
@@ -36,44 +37,49 @@ bool RepairedRun::is_of_this_repair() const {
 void RepairedRun::require_this_repair() const {
   if (is_of_this_repair()) return;
   throw InputError(folder_.path().string(), "",
-                   "is no run of this repair; expected that of these frames and options, or another name");
+                   "belongs to another repair; choose another folder, or resume with the same frames and options");
 }
 
-void RepairedRun::lacks_steps() const {
+void RepairedRun::refuse(const char* why) const {
   throw InputError(folder_.path().string(), "",
-                   "lacks steps of this repair; --force without --resume begins anew and replaces it");
+                   std::string(why) + "; --force without --resume begins anew and replaces it");
 }
 
-void RepairedRun::begin(bool force, bool resume) {
+void RepairedRun::claim(bool force, bool resume) {
   folder_.lock();
   bool replace = force;
   if (resume && std::filesystem::exists(folder_.path())) {
     if (folder_.has_begun()) require_this_repair();
     replace = true;
   }
-  folder_.make(replace);
+  folder_.claim(replace);
+}
+
+void RepairedRun::begin() {
+  folder_.make(true);
   writer_.emplace(folder_.path(), scene_.run);
   folder_.begin(document(), scene_.fingerprint, facts());
 }
 
 bool RepairedRun::go_on(std::size_t steps, std::span<const Position> x, const std::function<bool()>& stop) {
   folder_.lock();
-  if (!folder_.has_begun()) lacks_steps();
+  if (!folder_.has_begun()) refuse("has no steps of this repair");
   require_this_repair();
   const KnownWindows known = folder_.go_on(document(), scene_.fingerprint);
-  // Each window was in the log, with its hash, before its step was in the table of frames.
-  if (known.count < steps) lacks_steps();
+  // Each window is in the log, with its hash, before its step is in the table of frames.
+  logged_ = known.count;
+  if (logged_ < steps) refuse("lacks steps of this repair");
   reader_.emplace(folder_.path());
   reader_->expect(known);
-  if (reader_->scene() != scene_.run) lacks_steps();
+  if (reader_->scene() != scene_.run) refuse("is about another mesh");
   std::vector<Position> end;
   for (; steps_ < steps; ++steps_) {
     if (stop()) return false;
     std::optional<RunWindow> window = reader_->next_window();
-    if (!window) lacks_steps();
+    if (!window) refuse("lacks steps of this repair");
     end = std::move(window->positions);
   }
-  if (steps > 0 && !same_bits(end, in_run(x))) lacks_steps();
+  if (steps > 0 && !same_bits(end, in_run(x))) refuse("has another motion than this repair");
   return true;
 }
 
@@ -105,7 +111,11 @@ bool RepairedRun::take_existing(std::span<const Position> end) {
     start_writing();
     return false;
   }
-  if (!same_bits(window->positions, in_run(end))) lacks_steps();
+  if (!same_bits(window->positions, in_run(end))) refuse("has another motion than this repair");
+  // A kill may have come between its commit and its line.
+  if (steps_ >= logged_) {
+    folder_.log({reader_->windows(), reader_->running_hash()}, window->end, window->breakpoints);
+  }
   ++steps_;
   return true;
 }

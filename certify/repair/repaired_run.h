@@ -43,9 +43,11 @@ class RepairedRun {
 
   /// Throws UsageError if the folder has something that is not to be replaced; changes nothing.
   void require_room(bool force) const { folder_.require_room(force); }
-  /// Creates the folder; with `force`, removes the run in it first. With `resume`, the run in it is removed if it is
-  /// one of this repair. Throws UsageError, InputError, std::system_error.
-  void begin(bool force, bool resume);
+  /// Creates the folder for a new run. With `force` a run in it may be replaced, with `resume` one of this repair.
+  /// Throws UsageError, InputError: then nothing has been removed.
+  void claim(bool force, bool resume);
+  /// Removes what is in the folder of a run, and begins the new one. Precondition: claim(). Throws std::system_error.
+  void begin();
   /// Goes on after so many steps, the last of which ends at x. False if `stop` returned true. Throws UsageError,
   /// InputError: no run, or not of this repair.
   bool go_on(std::size_t steps, std::span<const Position> x, const std::function<bool()>& stop);
@@ -73,7 +75,7 @@ class RepairedRun {
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
   bool is_of_this_repair() const;
   void require_this_repair() const;
-  [[noreturn]] void lacks_steps() const;
+  [[noreturn]] void refuse(const char* why) const;
 
   RepairedScene scene_;
   WindowOptions options_;
@@ -81,7 +83,8 @@ class RepairedRun {
   RunFolder folder_;
   std::optional<RunReader> reader_;  ///< as long as the run may have the next window already
   std::optional<RunWriter> writer_;
-  std::size_t steps_ = 0;  ///< that have been added
+  std::uint64_t logged_ = 0;  ///< windows that the log has
+  std::size_t steps_ = 0;     ///< that have been added
   std::uint64_t straight_windows_ = 0;
 };
 

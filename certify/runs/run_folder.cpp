@@ -62,8 +62,8 @@ Json member_of_scene(const fs::path& run, const char* key) {
   return scene.is_object() ? scene.value(key, Json()) : Json();
 }
 
-/// Whether a file has windows of a run, or is no remains of one at all.
-bool holds_motion(const fs::path& trajectory) {
+/// Whether something would be lost if this file were replaced: committed windows, or a file that no run wrote.
+bool must_stay(const fs::path& trajectory) {
   if (!fs::exists(trajectory)) return false;
   try {
     return RunReader(trajectory.parent_path()).look().windows > 0;
@@ -95,24 +95,31 @@ RunFolder::RunFolder(const fs::path& path, std::string option)
   if (!path_.has_filename() && path_.has_relative_path()) path_ = path_.parent_path();
 }
 
-void RunFolder::lock() {
-  std::error_code error;
-  if (lock_ || !fs::is_directory(path_, error)) return;
+void lock_folder(const fs::path& folder, const std::string& option, std::optional<FolderLock>& lock) {
   try {
-    lock_.emplace(path_);
+    lock.emplace(folder);
   } catch (const FolderLocked& locked) {
-    throw UsageError(option_ + " " + locked.what() + "; expected another folder, or to wait for its end");
+    throw UsageError(option + " " + locked.what() + "; expected another folder, or to wait for its end");
   } catch (const std::system_error& closed) {
-    throw UsageError(option_ + " " + closed.what() + "; expected a folder that may be read and written to");
+    throw UsageError(option + " " + closed.what() + "; expected a folder that may be read and written to");
   }
 }
 
-void RunFolder::make(bool force) {
+void RunFolder::lock() {
+  std::error_code error;
+  if (!lock_ && fs::is_directory(path_, error)) lock_folder(path_, option_, lock_);
+}
+
+void RunFolder::claim(bool force) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path_, error))) make_writable_folder(path_, option_);
   lock();
   require_room(force);
   require_writable_folder(path_.string(), option_);
+}
+
+void RunFolder::make(bool force) {
+  claim(force);
   clear(path_);
 }
 
@@ -148,7 +155,7 @@ bool RunFolder::has_begun() const {
   if (fs::exists(trajectory)) require_writable_file(trajectory, "--resume");
   if (fs::exists(path_ / "manifest.json")) return true;
   // The log is created after the manifest, and windows are written after the log.
-  if (!fs::exists(path_ / "log.jsonl") && !holds_motion(trajectory)) return false;
+  if (!fs::exists(path_ / "log.jsonl") && !must_stay(trajectory)) return false;
   throw UsageError("--resume: " + path_.string() + " has lost its manifest.json; expected a whole run");
 }
 

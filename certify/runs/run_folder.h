@@ -29,6 +29,10 @@ struct CommittedWindows {
   void tell(Json& entry) const;
 };
 
+/// Locks a folder against other writers. Throws UsageError, naming the option, when another has the lock, or the folder
+/// cannot be opened.
+void lock_folder(const std::filesystem::path& folder, const std::string& option, std::optional<FolderLock>& lock);
+
 class RunFolder {
  public:
   /// `option`: the one that names the folder, for errors.
@@ -42,6 +46,8 @@ class RunFolder {
   /// Creates and locks the folder. Throws UsageError when the name exists. With `force` it removes the files of an
   /// existing run first, and throws UsageError for anything else, or for a run that another process writes to.
   void make(bool force);
+  /// The same without removing files: make() will not throw UsageError.
+  void claim(bool force);
   /// Throws UsageError when make() would, because of what is there, and changes nothing.
   void require_room(bool force) const;
 

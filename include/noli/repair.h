@@ -22,7 +22,7 @@
 // never whether the answer is true: every step that is written has been decided in exact arithmetic.
 //
 // Units: those of the files; times in steps (in a run, seconds). Errors: as run_repair says. Thread safety: any number
-// of repairs may run at once, each with its own pattern, run and stop; nothing is printed.
+// of repairs may run at once, each with its own folders and stop; nothing is printed.
 #pragma once
 
 #include <array>
@@ -66,7 +66,7 @@ struct RepairRequest {
   double friction = 0;       ///< Coulomb's coefficient
   /// What is moved takes its surroundings along, over about so many edges; 0: contact alone decides where vertices go.
   std::uint64_t spread = 0;
-  /// A folder for the motion as a run as well: each step is a window of one second, in which vertices move as contact
+  /// Also write the motion to this folder, as a run: each step is a window of one second, in which vertices move as contact
   /// moved them, or on straight lines between the new frames (straight_windows). Not with only_new.
   std::optional<std::filesystem::path> run;
   std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes

@@ -98,6 +98,8 @@ struct VerifyRequest {
 
   /// Puts `frames` into `order`. Throws InputError when they are given against their numbers.
   void put_in_order();
+  /// Checks what goes with `reproduce`, and sets lines_in_no_file. Throws UsageError, InputError.
+  void prepare_to_reproduce();
 };
 
 /// `too_near`: nothing touches, but something comes nearer than min_distance. `proved`: no contact, and the checker

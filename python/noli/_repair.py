@@ -117,7 +117,7 @@ class Repaired:
     def text(self) -> str:
         """What ``noli repair`` prints."""
         text = self._repair.text()
-        return text if self._kept else re.sub(r" Times of the frames: [^\n]*", "", text)
+        return text if self._kept else re.sub(r" Times of the frames: .*?(?=\. Their motion: |\n)", "", text)
 
     def __str__(self):
         return self.text()

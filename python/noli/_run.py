@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs that are there: their windows, positions at any time, frames, pictures, pages."""
+"""Existing runs: their windows, positions at any time, frames, pictures, pages."""
 
 from __future__ import annotations
 
@@ -75,6 +75,8 @@ class Run:
     def positions(self, times: ArrayLike) -> Floats:
         """Where all vertices are at these times, rounded. Straight lines between them are not the certified motion.
 
+        Ask for all times at once: each call reads the run from its beginning.
+
         Parameters
         ----------
         times : float, or (n,)
@@ -132,10 +134,11 @@ class Run:
         """
         if not 0 < fps < float("inf"):
             raise UsageError(f"fps: expected a positive number, found {fps!r}")
+        shown = view_options(view, size, zoom)
+        if shown and not os.fspath(pattern).endswith(".png"):
+            raise UsageError("view, size, zoom: are for pictures; expected a pattern that ends in .png")
         with progress_of(progress) as told:
-            return _core.export_run(
-                self.folder, os.fspath(pattern), float(fps), bool(force), view_options(view, size, zoom), told
-            )
+            return _core.export_run(self.folder, os.fspath(pattern), float(fps), bool(force), shown, told)
 
     def to_png(
         self,
@@ -155,7 +158,7 @@ class Run:
 
     def report(self, file: Path, *, title: Optional[str] = None, force: bool = False) -> None:
         """Writes a page for a browser: the motion, and what the run recorded of it."""
-        require_new(file, force)
+        require_new(file, force, [os.path.join(self.folder, name) for name in os.listdir(self.folder)])
         _core.run_page(self.folder, os.fspath(file), title)
 
     def explain(self) -> Json:
@@ -168,7 +171,12 @@ class Run:
 
 
 def open_run(folder: Path) -> Run:
-    """A run that is there.
+    """Opens an existing run.
+
+    Parameters
+    ----------
+    folder : path
+        That ``noli.simulate`` or ``noli.repair`` wrote.
 
     Returns
     -------
@@ -177,6 +185,6 @@ def open_run(folder: Path) -> Run:
     Raises
     ------
     InputError
-        There is none, or it is damaged.
+        There is no run, or it is damaged.
     """
     return Run(folder)

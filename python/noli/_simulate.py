@@ -34,7 +34,7 @@ class Window:
     frames : list of (time, (vertices, 3) float64)
         Within it, in a run that recorded frames alone; else empty.
 
-    In a run of ``noli.repair`` velocities are 0, and energies and momenta empty.
+    In a run of ``noli.repair`` velocities are 0. There, and in a run of an earlier version, energies and momenta are empty.
     """
 
     index: int

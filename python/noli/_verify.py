@@ -350,7 +350,7 @@ def verify(
         **time_limit_of(time_limit),
     }
     if options["ring"] != 1 and options["min_distance"] == 0:
-        raise UsageError("ring: says who may be nearer than min_distance; expected min_distance, too")
+        raise UsageError("ring: has no effect without min_distance; pass both")
     if first_only and keep_going:
         raise UsageError("first_only, keep_going: expected one of them at most")
     bodies = bodies_in_files(frames, obstacles)

@@ -22,7 +22,7 @@ void bind_queries(pybind11::module_& core);
 void bind_steps(pybind11::module_& core);
 /// class Simulation.
 void bind_simulate(pybind11::module_& core);
-/// Runs that are there.
+/// Existing runs.
 void bind_run(pybind11::module_& core);
 /// repair().
 void bind_repair(pybind11::module_& core);

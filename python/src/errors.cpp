@@ -25,11 +25,13 @@ void raise_system(const std::system_error& error) {
   PyErr_SetObject(PyExc_OSError, arguments.ptr());
 }
 
-/// What the command calls --force.
+/// What the command calls --force and --resume.
 std::string in_python(std::string text) {
-  constexpr std::string_view option = "--force";
-  for (std::size_t at = text.find(option); at != std::string::npos; at = text.find(option, at)) {
-    text.replace(at, option.size(), "force=True");
+  for (const auto& [option, argument] : {std::pair("--force", "force=True"), std::pair("--resume", "resume=True")}) {
+    const std::string_view name = option;
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
+      text.replace(at, name.size(), argument);
+    }
   }
   return text;
 }
@@ -38,7 +40,7 @@ void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const InputError& error) {
-    raise("InputError", error.what());
+    raise("InputError", in_python(error.what()).c_str());
   } catch (const UsageError& error) {
     raise("UsageError", in_python(error.what()).c_str());
   } catch (const Stopped& error) {

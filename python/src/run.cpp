@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <optional>
@@ -41,13 +42,24 @@ SeriesReader opened(const fs::path& run) {
   return open_run(run);
 }
 
+/// What does not change from window to window, as it is read.
+struct RunFacts {
+  explicit RunFacts(const fs::path& run)
+      : log(read_log(run)), reader(open_run(run, log)), look(reader.look()), title(title_of(run)) {}
+  LogFacts log;
+  SeriesReader reader;
+  RunLook look;
+  std::string title;
+};
+
 /// The windows of a run, one after another.
 class RunWindows {
  public:
   explicit RunWindows(const fs::path& run) : reader_(opened(run)) {}
 
-  /// A dict, or None behind the last.
+  /// A dict, or None behind the last. Not in the child of a fork, which shares the place in the file with its parent.
   py::object next() {
+    if (process_ != ::getpid()) throw UsageError("the run was opened in the process that was forked; open it again");
     const auto alone = one_at_a_time_.enter();
     std::optional<RunWindow> window;
     in_background([&](Background&) { window = reader_.next_window(); });
@@ -66,27 +78,27 @@ class RunWindows {
 
   OneAtATime one_at_a_time_;
   SeriesReader reader_;
+  int process_ = ::getpid();
 };
 
-/// What does not change from window to window.
 py::dict run_facts_of(const fs::path& run) {
-  SeriesReader reader = opened(run);
+  std::optional<RunFacts> found;
+  in_background([&](Background&) { found.emplace(run); });
+  const SeriesReader& reader = found->reader;
   const Mesh& mesh = reader.mesh();
-  const RunLook look = reader.look();
   py::dict facts;
-  facts["title"] = title_of(run);
+  facts["title"] = found->title;
   facts["dimension"] = reader.header().dimension;
   facts["record"] = reader.header().record == RecordMode::full ? "full" : "frames";
   facts["window"] = reader.header().window_length;
-  facts["windows"] = look.windows;
-  facts["end"] = look.end;
+  facts["windows"] = found->look.windows;
+  facts["end"] = found->look.end;
   facts["vertices"] = mesh.vertex_count;
   facts["faces"] = rows_of_cells(mesh.faces);
   facts["edges"] = rows_of_cells(mesh.edges);
   facts["points"] = array_of(std::vector<std::int64_t>(mesh.points.begin(), mesh.points.end()));
   py::list bodies;
-  const LogFacts log = read_log(run);
-  for (const auto& body : log.names.bodies()) {
+  for (const auto& body : found->log.names.bodies()) {
     bodies.append(py::make_tuple(body.name, body.first, body.vertices));
   }
   facts["bodies"] = bodies;

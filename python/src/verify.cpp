@@ -75,9 +75,6 @@ class Outcome {
     } else {
       name_files(frames.cast<std::vector<std::filesystem::path>>());
     }
-    // Its motion goes to the checker on its way.
-    request_.lines_in_no_file =
-        request_.reproduce && request_.run && RunReader(request_.frames[0]).header().record == RecordMode::frames;
     run(progress);
   }
 
@@ -195,6 +192,7 @@ class Outcome {
 
   void run(const py::object& progress) {
     in_background([&](Background& background) {
+      if (request_.reproduce) request_.prepare_to_reproduce();
       if (given_) given_->call_through(&background);
       request_.stop = background.stop();
       request_.progress = progress_to(progress, background);

@@ -48,7 +48,8 @@ class RepairedRunTest : public testing::Test {
     scene.run.header.window_length = 1;
     scene.run.labels.assign(6, 0);
     run_.emplace(folder_.path() / "run", scene, at(1), options);
-    run_->begin(false, false);
+    run_->claim(false, false);
+    run_->begin();
   }
   RunWindow window() const {
     RunReader reader(folder_.path() / "run");

@@ -51,7 +51,8 @@ const std::vector<Command>& commands() {
       {"Simulate", {"simulate", "IN/scene.json", "-o", "OUT/run"}},
       {"SimulateFrames", {"simulate", "IN/frames.json", "-o", "OUT/run"}},
       {"Resume", {"simulate", "IN/scene.json", "-o", "OUT/run", "--resume"}, "noli", "half"},
-      {"Repair", {"repair", "IN/a.obj", "IN/c.obj", "-o", "OUT/%d.obj", "--run", "OUT/run", "--json", "OUT/a.json"}},
+      {"Repair",
+       {"repair", "IN/a.obj", "IN/c.obj", "IN/a.obj", "-o", "OUT/%d.obj", "--run", "OUT/run", "--json", "OUT/a.json"}},
       {"ExplainScene", {"explain", "IN/scene.json", "--json", "OUT/a.json"}},
       {"ExplainRun", {"explain", "IN/run", "--json", "OUT/a.json"}},
       {"Export", {"export", "IN/run", "--fps", "50", "-o", "OUT/frames/%02d.obj"}},
@@ -213,7 +214,8 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     const Process process = run_noli(words_to_go_on(there));
     ASSERT_EQ(process.exit_code, 0) << process.err;
     for (const auto& [name, bytes] : whole.files) {
-      const bool kept = name.ends_with(".blocks") || name.ends_with(".obj") || name.ends_with(".csv");
+      const bool kept =
+          name.ends_with(".blocks") || name.ends_with(".obj") || name.ends_with(".csv") || name == "changed.jsonl";
       if (!kept) continue;
       EXPECT_TRUE(bytes_of(out_path("now/" + name)) == bytes) << name;
     }

@@ -67,6 +67,8 @@ class Repair(TestCase):
         run = self.folder / "run"
         found = noli.repair(self.V, self.mesh, run=run)
         self.assertEqual(found.to_json()["run"], str(run))
+        self.assertIn(f"Their motion: {run}", found.text())
+        self.assertNotIn("times.csv", found.text())
         kept = noli.verify(run)
         self.assertEqual((kept.verdict, kept.to_json()["steps"]), ("proved", len(self.V) - 1))
         with self.assertRaisesRegex(noli.UsageError, "exists already"):

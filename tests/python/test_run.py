@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
+import os
 import struct
 
 import noli
@@ -90,6 +91,8 @@ class Runs(TestCase):
         with self.assertRaisesRegex(noli.InputError, "0.03"):
             run.to_png(file, 1, force=True)
         self.assertEqual(run.export(self.folder / "film" / "%d.png", fps=100, size=(64, 64)), 4)
+        with self.assertRaisesRegex(noli.UsageError, "are for pictures"):
+            run.export(self.folder / "out" / "%d.ply", size=(64, 64))
         for wrong in ({"view": (0, 0, 0)}, {"size": (1, 1)}, {"size": (100,)}, {"zoom": "nobody"}):
             with self.assertRaises(noli.UsageError):
                 run.to_png(file, 0.02, force=True, **wrong)
@@ -99,6 +102,8 @@ class Runs(TestCase):
         page = self.folder / "run.html"
         run.report(page)
         self.assertIn("A falling sheet", page.read_text(encoding="utf-8"))
+        with self.assertRaisesRegex(noli.UsageError, "is read"):
+            run.report(self.folder / "full" / "manifest.json", force=True)
         _, out, _ = run_noli("explain", run.folder, "--json", "-", expected=0)
         self.assertEqual(run.explain(), json.loads(out))
 
@@ -124,6 +129,19 @@ class Runs(TestCase):
                 repaired.to_png(self.folder / "no.png", wrong)
         with self.assertRaisesRegex(noli.UsageError, "pass output="):
             noli.repair(V, mesh).to_png(self.folder / "no.png", 1)
+
+    def test_a_fork_opens_it_again(self):
+        windows = iter(self.simulated())
+        next(windows)
+        child = os.fork()
+        if child == 0:
+            try:
+                next(windows)
+            except noli.UsageError:
+                os._exit(0)
+            os._exit(1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.assertEqual([window.index for window in windows], [2, 3])
 
     def test_damage_is_an_error(self):
         run = self.simulated()

@@ -441,7 +441,7 @@ class BadInput(TestCase):
     def test_options_that_do_not_go_together(self):
         V, F, _ = falling_sheet()
         for options, text in (
-            ({"ring": 3}, "expected min_distance, too"),
+            ({"ring": 3}, "without min_distance"),
             ({"first_only": True, "keep_going": True}, "expected one of them at most"),
             ({"min_distance": "1mm"}, "min_distance: expected a number"),
             ({"time_limit": "soon"}, "time_limit: expected a number"),

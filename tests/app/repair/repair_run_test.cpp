@@ -11,6 +11,13 @@
 namespace noli::app_tests {
 namespace {
 
+/// The first lines of a text.
+std::string lines_of(const std::string& text, std::size_t count) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < count; ++k) at = text.find('\n', at) + 1;
+  return text.substr(0, at);
+}
+
 class RepairRun : public Repair {
  protected:
   std::string run() const { return folder.path("run"); }
@@ -82,7 +89,7 @@ TEST_F(RepairRun, KeepsWhatWasRepairedBeforeNoWayWasLeft) {
   EXPECT_EQ(verified["run"]["end"], "blocked");
   EXPECT_EQ(verified["run"]["windows_total"], 3);
   EXPECT_EQ(verified["run"]["time"], json["steps"]);
-  EXPECT_NE(run_noli({"verify", run()}).out.find("(what is fixed meets next)"), std::string::npos);
+  EXPECT_NE(run_noli({"verify", run()}).out.find("(fixed vertices meet in the next step)"), std::string::npos);
 }
 
 TEST_F(RepairRun, IsNotBegunByAStartThatTouches) {
@@ -94,6 +101,15 @@ TEST_F(RepairRun, IsNotBegunByAStartThatTouches) {
   const std::string before = read_text(trajectory());
   EXPECT_EQ(json_of(with_run(falling({0, 1}), {"--force"}), 1)["run"], nullptr);
   EXPECT_TRUE(read_text(trajectory()) == before);
+}
+
+TEST_F(RepairRun, NamesNeedNotBeUtf8) {
+  const Words frames = falling({1, -0.5});
+  const std::string name = folder.path("\xff.ply");
+  fs::copy_file(frames[0], name);
+  const Words words = with_run({name, frames[1]}, {"--order", "given"});
+  EXPECT_EQ(run_noli(words).exit_code, 0);
+  EXPECT_EQ(run_noli(words + Words{"--resume"}).exit_code, 0);
 }
 
 TEST_F(RepairRun, InThePlaneHasNoThirdCoordinate) {
@@ -163,13 +179,6 @@ TEST_F(RepairRun, WhatWasKilledResumesToTheSameBytes) {
   EXPECT_EQ(run_noli({"verify", run()}).exit_code, 0);
 }
 
-/// The first lines of a text.
-std::string lines_of(const std::string& text, std::size_t count) {
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < count; ++k) at = text.find('\n', at) + 1;
-  return text.substr(0, at);
-}
-
 class ResumedRun : public RepairRun, public testing::WithParamInterface<const char*> {
  protected:
   /// A repair into frames of this format.
@@ -201,6 +210,24 @@ TEST_P(ResumedRun, GoesOnFromEachStep) {
 }
 INSTANTIATE_TEST_SUITE_P(Formats, ResumedRun, testing::Values(".ply", ".obj", ".vtu"),
                          [](const auto& format) { return std::string(format.param + 1); });
+
+TEST_F(RepairRun, AWindowWithoutItsLineIsLoggedWhenItIsTaken) {
+  const Words frames = falling(heights);
+  ASSERT_EQ(run_noli(with_run(frames)).exit_code, 0);
+  const std::string whole = read_text(trajectory()), log = read_text(folder.path("run/log.jsonl"));
+  const std::string table = read_text(folder.path("out/times.csv"));
+  // Killed between the commit of the second window and its line in the log...
+  folder.write("out/times.csv", lines_of(table, 3));
+  folder.write("run/log.jsonl", lines_of(log, 2));
+  const std::size_t second = whole.find("WIND", whole.find("WIND") + 1);
+  folder.write("run/trajectory.blocks", whole.substr(0, whole.find("WIND", second + 1)));
+  ASSERT_EQ(run_noli(with_run(frames, {"--resume"})).exit_code, 0);
+  // ... and again when the table had the second step, but no other line was in the log than that of its window.
+  const std::string resumed = read_text(folder.path("run/log.jsonl"));
+  ASSERT_NE(resumed.find("\"window\":1"), std::string::npos);
+  EXPECT_LT(resumed.find("\"window\":1"), resumed.find("resume")) << resumed;
+  EXPECT_TRUE(read_text(trajectory()) == whole);
+}
 
 TEST_F(RepairRun, RunsThatLackStepsAreNotResumed) {
   const Words frames = falling(heights);
@@ -243,7 +270,7 @@ TEST_F(RepairRun, ResumeReplacesNoOtherRun) {
   const std::string before = read_text(trajectory());
   const Words others = falling({1, 0.5, -0.5, -0.25, 0.75});
   const Words elsewhere = {"repair", "-o", folder.path("new/%d.ply"), "--run", run(), "--resume"};
-  refuses(elsewhere + others, "is no run of this repair");
+  refuses(elsewhere + others, "belongs to another repair");
   // Nor one whose manifest and log are lost, or a file of frames by that name.
   for (const char* name : {"manifest.json", "log.jsonl", "scene.json"}) fs::remove(folder.path("run") + "/" + name);
   const Words words = elsewhere + Words{others[0], others[2]};

@@ -272,10 +272,39 @@ TEST_F(Repair, WhatWasChangedBeforeIsStillKnown) {
     EXPECT_EQ(resumed, whole) << row;
     EXPECT_EQ(read_text(folder.path("out/changed.jsonl")), changed) << row;
   }
-  folder.write("out/changed.jsonl", "?\n" + changed);
-  const Process damaged = run_noli(repair(frames, {"--resume"}));
-  EXPECT_EQ(damaged.exit_code, 3);
-  EXPECT_NE(damaged.err.find("changed.jsonl"), std::string::npos) << damaged.err;
+  const std::string second = changed.substr(changed.find('\n') + 1);
+  for (const std::string& damaged :
+       {"?\n" + changed, std::string(), second, changed + changed, "{\"step\":1}\n" + second}) {
+    folder.write("out/changed.jsonl", damaged);
+    const Process process = run_noli(repair(frames, {"--resume"}));
+    EXPECT_EQ(process.exit_code, 3) << damaged;
+    EXPECT_NE(process.err.find("changed.jsonl"), std::string::npos) << process.err;
+  }
+}
+
+TEST_F(Repair, ResumeReplacesNoFileThatIsOnlyCalledLikeItsOwn) {
+  const Words frames = falling({1, -0.5});
+  fs::create_directory(folder.path("out"));
+  const std::string mine = folder.write("out/repair.json", "mine");
+  EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 3);
+  EXPECT_EQ(read_text(mine), "mine");
+}
+
+TEST_F(Repair, AKillWhileAnotherRepairWasReplacedResumes) {
+  ASSERT_EQ(run_noli(repair(falling({1, 0.5, -1}))).exit_code, 0);
+  const std::string table = read_text(folder.path("out/times.csv"));
+  const Words frames = falling({1, -0.5});
+  // --force writes the head of the table first.
+  folder.write("out/times.csv", table.substr(0, table.find('\n') + 1));
+  EXPECT_EQ(run_noli(repair(frames, {"--resume"})).exit_code, 0);
+  EXPECT_EQ(read_text(out(0)), read_text(frames[0]));
+}
+
+TEST_F(Repair, SaysWhatIsFixedAndListsTheNewFrames) {
+  const Process process = run_noli(repair(falling({1, -0.5}), {"--fixed-first", "3", "-v"}));
+  EXPECT_EQ(process.exit_code, 0) << process.err;
+  EXPECT_NE(process.out.find("3 of 6 vertices move as given."), std::string::npos) << process.out;
+  EXPECT_NE(process.out.find("    copied  " + out(0)), std::string::npos) << process.out;
 }
 
 TEST_F(Repair, OneRepairAtATimeWritesToAFolder) {
