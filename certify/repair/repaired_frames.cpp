@@ -15,6 +15,7 @@
 #include <noli/version.h>
 #include "certify/json.h"
 #include "certify/result_file.h"
+#include "certify/runs/run_folder.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_look.h"
 #include "trajectory/formats/frame_names.h"

@@ -66,8 +66,8 @@ struct RepairRequest {
   double friction = 0;       ///< Coulomb's coefficient
   /// What is moved takes its surroundings along, over about so many edges; 0: contact alone decides where vertices go.
   std::uint64_t spread = 0;
-  /// Also write the motion to this folder, as a run: each step is a window of one second, in which vertices move as contact
-  /// moved them, or on straight lines between the new frames (straight_windows). Not with only_new.
+  /// Also write the motion to this folder, as a run: each step is a window of one second, in which vertices move as
+  /// contact moved them, or on straight lines between the new frames (straight_windows). Not with only_new.
   std::optional<std::filesystem::path> run;
   std::optional<std::filesystem::path> proof;  ///< where the proof about the new frames goes
   bool check = true;                           ///< the checker looks at it
