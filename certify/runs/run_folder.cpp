@@ -12,8 +12,8 @@
 #include <noli/version.h>
 #include "certify/result_file.h"
 #include "certify/runs/run_log_facts.h"
-#include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/blocks/frames_file.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/blocks/run_manifest.h"
 #include "trajectory/formats/frame_look.h"
@@ -62,17 +62,14 @@ Json member_of_scene(const fs::path& run, const char* key) {
   return scene.is_object() ? scene.value(key, Json()) : Json();
 }
 
-/// Whether something would be lost if this file were replaced: committed windows, or a file that no run wrote.
+/// Whether something would be lost if this file were replaced: committed windows, or a file of frames.
+/// A loss of power may leave anything else, zeros for example.
 bool must_stay(const fs::path& trajectory) {
   if (!fs::exists(trajectory)) return false;
   try {
     return RunReader(trajectory.parent_path()).look().windows > 0;
   } catch (const InputError&) {
-    std::ifstream file(trajectory, std::ios::binary);
-    std::string head(block_format::file_header_size, '\0');
-    file.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(file.gcount()));
-    return !block_format::file_header(four_letters("TRAJ")).starts_with(head);
+    return is_frames_file(trajectory);
   }
 }
 

@@ -52,8 +52,6 @@ inline constexpr std::size_t checksum_size = 4;
 inline constexpr std::size_t commit_payload_size = 72;
 inline constexpr std::size_t commit_size = block_header_size + commit_payload_size + checksum_size;
 
-/// How a file about this content begins.
-std::string file_header(FourLetters content);
 /// Kind and length as a block begins.
 std::string block_header(FourLetters kind, std::uint64_t length);
 }  // namespace block_format

@@ -37,15 +37,11 @@ Sha256Digest next_running_hash(const Sha256Digest& a, const Sha256Digest& b) {
   return hash.digest();
 }
 
-std::string block_format::file_header(FourLetters content) {
-  std::string header(magic);
-  put(header, version);
-  put(header, content);
-  return header;
-}
-
 BlockWriter::BlockWriter(std::unique_ptr<Sink> sink, FourLetters content) : sink_(std::move(sink)) {
-  write(block_format::file_header(content));
+  std::string header(block_format::magic);
+  put(header, block_format::version);
+  put(header, content);
+  write(header);
 }
 
 BlockWriter::BlockWriter(std::unique_ptr<Sink> sink, const CommitPoint& committed)
