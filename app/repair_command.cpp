@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -98,16 +100,13 @@ ExitCode run(RepairArguments& arguments) {
     require_no_folder_read(request);
     request.frames = named_frames(std::move(request.frames));
   }
-  inputs.insert(inputs.end(), request.frames.begin(), request.frames.end());
   if (request.run && request.run->empty()) throw UsageError("--run: expected the name of a folder, found ''");
   if (request.run) inputs.push_back(*request.run);  // no output is one of its files
-  if (request.ignore) inputs.push_back(*request.ignore);
-  if (request.masses != "size" && request.masses != "uniform") inputs.emplace_back(request.masses);
   if (arguments.fixed_vertices) {
-    inputs.push_back(*arguments.fixed_vertices);
     request.fixed_listed = listed_vertices(*arguments.fixed_vertices);
     request.fixed_file = arguments.fixed_vertices;
   }
+  std::ranges::copy(files_read(request), std::back_inserter(inputs));
   const Output output(arguments.results, inputs, outputs_of(arguments));
   request.force = arguments.results.force && !request.resume;
   request.stop = &interrupted();

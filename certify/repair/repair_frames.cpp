@@ -202,7 +202,7 @@ class Repair {
     window.exclusions = exclusions();
     window.stop = request_.stop;
     window.deadline = request_.deadline;
-    run_.emplace(*request_.run, std::move(scene), x_, window);
+    run_.emplace(*request_.run, std::move(scene), window);
     if (!request_.resume) run_->require_room(request_.force);
   }
 

@@ -77,9 +77,8 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       fingerprint_(find_fingerprint()),
       state_text_(Json({{"noli_repair", 1}, {"of", hex(fingerprint_)}}).dump() + '\n'),
       resumes_(request.resume && is_there()),
-      files_(request.pattern, request.force || resumes_ || (request.resume && has_only_begun())
-                                  ? FrameFiles::Existing::replaced
-                                  : FrameFiles::Existing::refused) {
+      replaces_(request.force || resumes_ || (request.resume && has_only_begun())),
+      files_(request.pattern, replaces_ ? FrameFiles::Existing::replaced : FrameFiles::Existing::refused) {
   lock_folder(files_.folder().empty() ? "." : files_.folder(), "-o", lock_);  // against other repairs
   for (const auto& file : files_read(request)) {
     if (!files_.may_be(file)) continue;
@@ -90,8 +89,7 @@ RepairedFrames::RepairedFrames(const RepairRequest& request, const FrameSource& 
       throw UsageError("-o " + request.pattern + ": " + beside.string() + " is read; choose another folder or name");
     }
     const auto status = std::filesystem::symlink_status(beside);
-    if (status.type() == std::filesystem::file_type::not_found || request.force || resumes_) continue;
-    if (request.resume && has_only_begun()) continue;
+    if (status.type() == std::filesystem::file_type::not_found || replaces_) continue;
     throw UsageError("-o " + request.pattern + ": " + beside.string() +
                      " exists already; choose another name, or pass --force");
   }

@@ -78,6 +78,7 @@ class RepairedFrames {
   Sha256Digest fingerprint_;
   std::string state_text_;
   bool resumes_;
+  bool replaces_;  ///< what is there, also where an earlier call had only begun
   FrameFiles files_;
   std::optional<FolderLock> lock_;         ///< of their folder
   std::string rows_, changes_;             ///< of the table and the changed steps, as an earlier call left them

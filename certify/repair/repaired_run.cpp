@@ -11,9 +11,8 @@
 
 namespace noli {
 
-RepairedRun::RepairedRun(const std::filesystem::path& folder, RepairedScene scene, std::span<const Position> x,
-                         const WindowOptions& options)
-    : scene_(std::move(scene)), options_(options), verifier_(scene_.run.mesh, x, options), folder_(folder, "--run") {
+RepairedRun::RepairedRun(const std::filesystem::path& folder, RepairedScene scene, const WindowOptions& options)
+    : scene_(std::move(scene)), options_(options), folder_(folder, "--run") {
   folder_.lock();
 }
 
@@ -28,14 +27,8 @@ Json RepairedRun::document() const {
 }
 
 /// Precondition: the folder has a run that has begun.
-bool RepairedRun::is_of_this_repair() const {
-  const Json scene = Json::parse(read_scene(folder_.path(), read_manifest(folder_.path())), nullptr, false);
-  if (!scene.is_object() || !scene.contains("repair") || !scene["repair"].is_object()) return false;
-  return scene["repair"].value("sha256", Json()) == hex(scene_.fingerprint);
-}
-
 void RepairedRun::require_this_repair() const {
-  if (is_of_this_repair()) return;
+  if (read_manifest(folder_.path()).model_sha256 == scene_.fingerprint) return;
   throw InputError(folder_.path().string(), "",
                    "belongs to another repair; choose another folder, or resume with the same frames and options");
 }
@@ -91,7 +84,8 @@ void RepairedRun::add_straight(std::span<const Position> x, const std::vector<Po
 bool RepairedRun::add(const FilteredStep& moved, std::span<const Position> x, std::span<const double> times) {
   if (take_existing(moved.end)) return true;
   WorldLines lines = lines_of_step(moved, x, steps_, dimension());
-  const WindowResult found = verifier_.verify(lines, options_);
+  if (!verifier_) verifier_.emplace(scene_.run.mesh, x, options_);
+  const WindowResult found = verifier_->verify(lines, options_);
   if (!found.complete && found.contact_count() == 0) return false;
   if (found.contact_count() > 0) {
     std::vector<std::vector<Position>> frames;

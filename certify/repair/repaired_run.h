@@ -37,9 +37,8 @@ struct RepairedScene {
 
 class RepairedRun {
  public:
-  /// Locks the folder if it exists. `x`: the first frame. The options are those of each window. Throws UsageError.
-  RepairedRun(const std::filesystem::path& folder, RepairedScene scene, std::span<const Position> x,
-              const WindowOptions& options);
+  /// Locks the folder if it exists. The options are those of each window. Throws UsageError.
+  RepairedRun(const std::filesystem::path& folder, RepairedScene scene, const WindowOptions& options);
 
   /// Throws UsageError if the folder has something that is not to be replaced; changes nothing.
   void require_room(bool force) const { folder_.require_room(force); }
@@ -73,13 +72,12 @@ class RepairedRun {
   Json document() const;
   Json facts() const { return {{"bodies", scene_.bodies}}; }
   CommittedWindows committed() const { return {writer_->windows(), writer_->running_hash()}; }
-  bool is_of_this_repair() const;
   void require_this_repair() const;
   [[noreturn]] void refuse(const char* why) const;
 
   RepairedScene scene_;
   WindowOptions options_;
-  WindowVerifier verifier_;
+  std::optional<WindowVerifier> verifier_;  ///< since the first step that was filtered
   RunFolder folder_;
   std::optional<RunReader> reader_;  ///< as long as the run may have the next window already
   std::optional<RunWriter> writer_;

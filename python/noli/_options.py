@@ -90,6 +90,12 @@ def require_new(file: Any, force: bool, inputs: Sequence[Any] = ()) -> None:
         raise UsageError(f"{os.fspath(file)}: is read; choose another name")
 
 
+def require_ending(file: Any, ending: str) -> None:
+    """Raises UsageError."""
+    if not os.fspath(file).endswith(ending):
+        raise UsageError(f"{os.fspath(file)}: expected a name that ends in {ending}")
+
+
 def stem(file: Any) -> str:
     """The file's name without folder and ending."""
     return os.path.splitext(os.path.basename(os.fspath(file)))[0]

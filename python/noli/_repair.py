@@ -24,6 +24,7 @@ from ._options import (
     dimension_of,
     distance,
     refuse_options_of_files,
+    require_ending,
     require_new,
     stem,
     threads_of,
@@ -107,8 +108,7 @@ class Repaired:
         """
         if not self._kept:
             raise UsageError("to_png: shows the frames in files; pass output= to noli.repair")
-        if not os.fspath(file).endswith(".png"):
-            raise UsageError(f"{os.fspath(file)}: expected a name that ends in .png")
+        require_ending(file, ".png")
         require_new(file, force, [frame["file"] for key in ("inputs", "outputs") for frame in self._json[key]])
         if not len(self.times) or not 0 <= time <= self.times[-1]:
             raise InputError(f"time: expected 0 to {max(self.times, default=0):g} steps, found {time!r}")

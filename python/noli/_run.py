@@ -14,7 +14,7 @@ from . import _core
 from ._arrays import numbers
 from ._errors import UsageError
 from ._mesh import CollisionMesh
-from ._options import require_new, view_options
+from ._options import require_ending, require_new, view_options
 from ._simulate import Window
 from ._types import Floats, Json, Path, Progress
 from ._words import progress_of
@@ -151,8 +151,7 @@ class Run:
         force: bool = False,
     ) -> None:
         """Writes a picture of the run at a time [s]; the options are those of ``export``."""
-        if not os.fspath(file).endswith(".png"):
-            raise UsageError(f"{os.fspath(file)}: expected a name that ends in .png")
+        require_ending(file, ".png")
         require_new(file, force)
         _core.run_picture(self.folder, float(time), os.fspath(file), view_options(view, size, zoom))
 

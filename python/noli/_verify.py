@@ -19,6 +19,7 @@ from ._options import (
     dimension_of,
     distance,
     refuse_options_of_files,
+    require_ending,
     require_new,
     stem,
     threads_of,
@@ -192,8 +193,7 @@ class Result:
         self._write_contact(file, ".png", number, force)
 
     def _write_contact(self, file: Path, ending: str, number: int, force: bool) -> None:
-        if not os.fspath(file).endswith(ending):
-            raise UsageError(f"{os.fspath(file)}: expected a name that ends in {ending}")
+        require_ending(file, ending)
         require_new(file, force)
         self._require_listed(number)
         self._outcome.write_contact(os.fspath(file), whole(number, "number", 0))

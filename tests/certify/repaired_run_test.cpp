@@ -47,7 +47,7 @@ class RepairedRunTest : public testing::Test {
     scene.run.mesh.faces = {{0, 1, 2}, {3, 4, 5}};
     scene.run.header.window_length = 1;
     scene.run.labels.assign(6, 0);
-    run_.emplace(folder_.path() / "run", scene, at(1), options);
+    run_.emplace(folder_.path() / "run", scene, options);
     run_->claim(false, false);
     run_->begin();
   }

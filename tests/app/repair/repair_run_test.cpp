@@ -216,13 +216,13 @@ TEST_F(RepairRun, AWindowWithoutItsLineIsLoggedWhenItIsTaken) {
   ASSERT_EQ(run_noli(with_run(frames)).exit_code, 0);
   const std::string whole = read_text(trajectory()), log = read_text(folder.path("run/log.jsonl"));
   const std::string table = read_text(folder.path("out/times.csv"));
-  // Killed between the commit of the second window and its line in the log...
+  // Killed between the commit of the second window and its line in the log.
   folder.write("out/times.csv", lines_of(table, 3));
   folder.write("run/log.jsonl", lines_of(log, 2));
   const std::size_t second = whole.find("WIND", whole.find("WIND") + 1);
   folder.write("run/trajectory.blocks", whole.substr(0, whole.find("WIND", second + 1)));
   ASSERT_EQ(run_noli(with_run(frames, {"--resume"})).exit_code, 0);
-  // ... and again when the table had the second step, but no other line was in the log than that of its window.
+  // Its line comes before any that the next windows get, so another stop then does no harm.
   const std::string resumed = read_text(folder.path("run/log.jsonl"));
   ASSERT_NE(resumed.find("\"window\":1"), std::string::npos);
   EXPECT_LT(resumed.find("\"window\":1"), resumed.find("resume")) << resumed;
