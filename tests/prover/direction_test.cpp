@@ -4,8 +4,11 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
+#include <vector>
 
 #include "proofs/prover/cells/around.h"
 #include "proofs/prover/cells/direction_search.h"
@@ -234,6 +237,95 @@ TEST(Around, AFlatHingeIsSettledAndAFoldedOneIsNot) {
   EXPECT_EQ(flat.found, (std::array<bool, 4>{true, true, true, true}));
   const auto folded = around_edge(points_around<3, 2, 1>(a, a, 0, {1, 2}, {2}));
   EXPECT_EQ(folded.found, (std::array<bool, 4>{false, false, false, false}));
+}
+
+TEST(Around, UsualDirectionsSettleAllFacesAroundAVertexOfAGrid) {
+  const std::array<std::array<double, 2>, 6> ring = {{{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}}};
+  for (const double stretch : {1.0, 0.3, 3.0}) {
+    const auto face = [&](std::size_t i, bool turned) {
+      std::array<Position, 3> x = {};
+      for (std::size_t k = 1; k < 3; ++k) x[k] = {ring[(i + k - 1) % 6][0], stretch * ring[(i + k - 1) % 6][1], 0};
+      if (turned) std::swap(x[1], x[2]);
+      return step_cell<3>(x, x);
+    };
+    for (std::size_t i = 0; i < 6; ++i) {
+      SCOPED_TRACE(::testing::Message() << "stretch " << stretch << ", face " << i);
+      const auto hinge = around_edge(points_around<3, 2, 1>(face(i, true), face(i + 1, false), 0, {1, 2}, {2}));
+      EXPECT_EQ(hinge.found, (std::array<bool, 4>{true, true, true, true}));
+      for (const std::size_t apart : {2UL, 3UL}) {
+        EXPECT_TRUE(around_corner(points_around<3, 2, 2>(face(i, false), face(i + apart, false), 0, {1, 2}, {1, 2})));
+      }
+    }
+  }
+}
+
+/// Whether n.(p - q) > 0, exactly, for all p of one list and all q of another.
+bool truly_above(const std::vector<Position>& above, const std::vector<Position>& below, const Direction<3>& n) {
+  return std::ranges::all_of(above, [&](const Position& p) {
+    return std::ranges::all_of(below, [&](const Position& q) {
+      mpq_class sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += n[k] * (mpq_class(p[k]) - q[k]);
+      return sum > 0;
+    });
+  });
+}
+
+/// Five points near those of two flat faces around their first corner, (0, 1, 2) and (0, 3, 4), at both ends.
+std::array<std::array<Position, 5>, 2> random_fan(Random& random) {
+  std::array<std::array<Position, 5>, 2> x = {};
+  double angle = 0;
+  for (std::size_t i = 1; i < 5; ++i) {
+    angle += 0.2 + 1.4 * random.unit();
+    const double length = 0.1 + random.unit();
+    x[0][i] = {length * std::cos(angle), length * std::sin(angle), 0};
+  }
+  x[1] = x[0];
+  for (auto& at_end : x) {
+    for (Position& p : at_end) {
+      for (double& c : p) c += 0.2 * random.unit();
+    }
+  }
+  return x;
+}
+
+TEST(Around, WhatIsClaimedOfACornerHolds) {
+  Random random(4);
+  int claims = 0, silences = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto x = random_fan(random);
+    const auto face = [&](std::size_t b, std::size_t c) {
+      return step_cell<3>({x[0][0], x[0][b], x[0][c]}, {x[1][0], x[1][b], x[1][c]});
+    };
+    const auto n = around_corner(points_around<3, 2, 2>(face(1, 2), face(3, 4), 0, {1, 2}, {1, 2}));
+    ++(n ? claims : silences);
+    if (!n) continue;
+    for (const auto& [a, b, c, d, e] : x) {
+      EXPECT_TRUE(truly_above({b, c}, {a, d, e}, *n));
+      EXPECT_TRUE(truly_above({a, b, c}, {d, e}, *n));
+    }
+  }
+  EXPECT_GT(claims, 0);
+  EXPECT_GT(silences, 0);
+}
+
+TEST(Around, WhatIsClaimedOfAnEdgeHolds) {
+  Random random(5);
+  int claims = 0, silences = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto x = random_fan(random);  // c and d, points 1 and 3, are on either side of the edge from 0 to 2
+    const auto a = step_cell<3>({x[0][0], x[0][2], x[0][1]}, {x[1][0], x[1][2], x[1][1]});
+    const auto b = step_cell<3>({x[0][0], x[0][2], x[0][3]}, {x[1][0], x[1][2], x[1][3]});
+    const auto around = around_edge(points_around<3, 2, 1>(a, b, 0, {1, 2}, {2}));
+    for (const bool found : around.found) ++(found ? claims : silences);
+    for (const auto& [p, c, q, d, unused] : x) {  // the edge is (p, q)
+      EXPECT_TRUE(!around.found[0] || truly_above({c}, {p, q, d}, around.n[0]));
+      EXPECT_TRUE(!around.found[1] || truly_above({q, c}, {p, d}, around.n[1]));
+      EXPECT_TRUE(!around.found[2] || truly_above({p, c}, {q, d}, around.n[2]));
+      EXPECT_TRUE(!around.found[3] || truly_above({p, q, c}, {d}, around.n[3]));
+    }
+  }
+  EXPECT_GT(claims, 0);
+  EXPECT_GT(silences, 0);
 }
 
 }  // namespace

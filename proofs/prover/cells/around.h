@@ -7,16 +7,24 @@
 //   a         the origin: d, q(x) and the error bound are those of proofs/prover/cells/direction.h with r = a, so q(a)
 //             = 0
 //   abc, ade  two faces around a corner: if b, c are above a along n, and d, e below, n separates (bc, ade) and (abc,
-//             de)
+//             de). Two directions are tried. The first goes from the middle of de to that of bc; in a grid of right
+//             triangles it fails for half of the pairs. The second is the difference of unit vectors along the closest
+//             two edges, say ac and ad. In a plane and within half a turn it separates: b is at a smaller angle to c
+//             than to d.
 //   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
-//             if c is above and d below both a and b along n; one direction each is tried for (bc, ad) and (ac, bd)
+//             if c is above and d below both a and b along n; one direction each is tried for (bc, ad) and (ac, bd):
+//             n + h (b - a) and n - h (b - a). If the hinge is nearly flat, they separate where h |(c - d).(b - a)| is
+//             below n.n. So h is 1, or half of the limit if that is less.
 //   abc, def  two cells without a common vertex
 //
 // proofs/prover/cell_pair.h settles the rest.
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <utility>
 
+#include "kernel/formula.h"
 #include "proofs/prover/cells/direction.h"
 
 namespace noli {
@@ -98,15 +106,51 @@ ProjectionsAround<Count> project(const PointsAround<Dim, Count>& around, const D
 /// Leaves a direction unrounded before it is tested.
 constexpr auto as_it_is = [](const auto& n) { return n; };
 
-/// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
-template <int Dim, class Round = decltype(as_it_is)>
-std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points, const Round& round = {}) {
+/// Points b, c, d, e: four times the vector from the middle of de to that of bc at mid-time.
+template <int Dim>
+std::array<double, Dim> between_middles(const PointsAround<Dim, 4>& points) {
   const auto& [b, c, d, e] = points.d;
   std::array<double, Dim> n;
   for (std::size_t k = 0; k < Dim; ++k) n[k] = detail::twice_middle((b[k] + c[k]) - (d[k] + e[k]));
-  n = round(n);
+  return n;
+}
+
+/// Points b, c, d, e: the difference of two unit vectors at mid-time, towards b or c and towards d or e, whichever two
+/// are at the smallest angle. Not finite if a point is at the origin.
+template <int Dim>
+std::array<double, Dim> between_closest_edges(const PointsAround<Dim, 4>& points) {
+  std::array<std::array<double, Dim>, 4> u;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < Dim; ++k) u[i][k] = detail::twice_middle(points.d[i][k]);
+    const double length = std::sqrt(formula::dot(u[i], u[i]));
+    for (double& part : u[i]) part /= length;
+  }
+  std::size_t first = 0, second = 2;
+  double greatest = formula::dot(u[0], u[2]);
+  for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 3}, {1, 2}, {1, 3}}) {
+    const double cosine = formula::dot(u[i], u[j]);
+    if (!(cosine > greatest)) continue;
+    greatest = cosine, first = i, second = j;
+  }
+  std::array<double, Dim> n;
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = u[first][k] - u[second][k];
+  return n;
+}
+
+/// Points b, c, d, e: whether a direction certainly separates (bc, ade) and (abc, de).
+template <int Dim>
+bool separates_corner(const PointsAround<Dim, 4>& points, const Direction<Dim>& n) {
   const auto p = project(points, n);
-  if (p.above_origin(0) && p.above_origin(1) && p.below_origin(2) && p.below_origin(3)) return n;
+  return p.above_origin(0) && p.above_origin(1) && p.below_origin(2) && p.below_origin(3);
+}
+
+/// Points b, c, d, e: a direction that separates (bc, ade) and (abc, de).
+template <int Dim, class Round = decltype(as_it_is)>
+std::optional<std::array<double, Dim>> around_corner(const PointsAround<Dim, 4>& points, const Round& round = {}) {
+  std::array<double, Dim> n = round(between_middles(points));
+  if (separates_corner(points, n)) return n;
+  n = round(between_closest_edges(points));
+  if (separates_corner(points, n)) return n;
   return std::nullopt;
 }
 
@@ -161,10 +205,12 @@ AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points, const Round&
     length += edge[k] * edge[k];
   }
   AroundEdge<Dim> result;
+  for (std::size_t k = 0; k < Dim; ++k) result.n[0][k] = across[k] - along / length * edge[k];
+  const double square = formula::dot(result.n[0], result.n[0]), limit = 2 * std::abs(along);
+  const double h = square < limit ? square / limit : 1;
   for (std::size_t k = 0; k < Dim; ++k) {
-    result.n[0][k] = across[k] - along / length * edge[k];
-    result.n[1][k] = across[k] + edge[k];  // b, c above a, d
-    result.n[2][k] = across[k] - edge[k];  // a, c above b, d
+    result.n[1][k] = result.n[0][k] + h * edge[k];  // b, c above a, d
+    result.n[2][k] = result.n[0][k] - h * edge[k];  // a, c above b, d
   }
   for (std::size_t i = 0; i < 3; ++i) result.n[i] = round(result.n[i]);
   result.n[3] = result.n[0];
