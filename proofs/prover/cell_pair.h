@@ -173,7 +173,7 @@ class CellPairs {
     return false;
   }
 
-  /// Two faces with one vertex in common, which each has once: whether the usual direction settles them.
+  /// Two faces with one vertex in common, which each has once: whether a usual direction settles them.
   bool settle_around_corner(const Cell& a, const Cell& b, unsigned same) {
     if (!are_faces(a, b)) return false;
     const std::size_t i = place(same) / 3, j = place(same) % 3;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "proofs/prover/cells/around.h"
@@ -39,20 +40,37 @@ PartPair<Dim> whole(const MovingCell<Dim>& a, const MovingCell<Dim>& b) {
   return pair_of(a, 7, b, 7, 0);
 }
 
+/// Coordinates of points.
+using Points = std::vector<std::vector<mpq_class>>;
+
+/// Whether n.(p - q) > 0, exactly, for all p of one list and all q of another.
+template <int Dim>
+bool truly_above(const Points& above, const Points& below, const Direction<Dim>& n) {
+  return std::ranges::all_of(above, [&](const auto& p) {
+    return std::ranges::all_of(below, [&](const auto& q) {
+      mpq_class sum = 0;
+      for (std::size_t k = 0; k < Dim; ++k) sum += n[k] * (p[k] - q[k]);
+      return sum > 0;
+    });
+  });
+}
+
+/// The corners at time s.
+template <int Dim>
+Points corners_at(const MovingCell<Dim>& cell, double s) {
+  Points points(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < Dim; ++k) {
+      points[i].push_back((1 - mpq_class(s)) * cell.x[0][k][i] + s * mpq_class(cell.x[1][k][i]));
+    }
+  }
+  return points;
+}
+
 /// Whether n.(a - b) > 0 at time s for all corners, exactly.
 template <int Dim>
 bool truly_above(const MovingCell<Dim>& a, const MovingCell<Dim>& b, const Direction<Dim>& n, double s) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      mpq_class sum = 0;
-      for (std::size_t k = 0; k < Dim; ++k) {
-        const mpq_class d0 = mpq_class(a.x[0][k][i]) - b.x[0][k][j], d1 = mpq_class(a.x[1][k][i]) - b.x[1][k][j];
-        sum += n[k] * ((1 - mpq_class(s)) * d0 + s * d1);
-      }
-      if (sum <= 0) return false;
-    }
-  }
-  return true;
+  return truly_above<Dim>(corners_at(a, s), corners_at(b, s), n);
 }
 
 template <int Dim>
@@ -70,6 +88,8 @@ MovingCell<3> random_cell(Random& random, double size, double offset, double lif
 
 struct Scale {
   double size, offset;
+
+  bool squares_fit() const { return size > 1e-160 && size < 1e160; }
 };
 
 class Separation : public ::testing::TestWithParam<Scale> {};
@@ -106,8 +126,7 @@ TEST_P(Separation, ThatIsFoundHolds) {
     EXPECT_TRUE(truly_above(a, b, *n, interval.begin) && truly_above(a, b, *n, interval.end));
   }
   EXPECT_GT(not_found, 0);
-  const bool squares_fit = GetParam().size > 1e-160 && GetParam().size < 1e160;
-  EXPECT_EQ(found > 0, squares_fit);
+  EXPECT_EQ(found > 0, GetParam().squares_fit());
 }
 
 /// Two horizontal triangles, `gap` apart.
@@ -239,60 +258,78 @@ TEST(Around, AFlatHingeIsSettledAndAFoldedOneIsNot) {
   EXPECT_EQ(folded.found, (std::array<bool, 4>{false, false, false, false}));
 }
 
-TEST(Around, UsualDirectionsSettleAllFacesAroundAVertexOfAGrid) {
+/// Expects that usual directions settle all pairs of faces around a vertex of a flat grid of right triangles.
+template <int Dim>
+void expect_settled_around_a_vertex(double stretch) {
   const std::array<std::array<double, 2>, 6> ring = {{{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}}};
-  for (const double stretch : {1.0, 0.3, 3.0}) {
-    const auto face = [&](std::size_t i, bool turned) {
-      std::array<Position, 3> x = {};
-      for (std::size_t k = 1; k < 3; ++k) x[k] = {ring[(i + k - 1) % 6][0], stretch * ring[(i + k - 1) % 6][1], 0};
-      if (turned) std::swap(x[1], x[2]);
-      return step_cell<3>(x, x);
-    };
-    for (std::size_t i = 0; i < 6; ++i) {
-      SCOPED_TRACE(::testing::Message() << "stretch " << stretch << ", face " << i);
-      const auto hinge = around_edge(points_around<3, 2, 1>(face(i, true), face(i + 1, false), 0, {1, 2}, {2}));
-      EXPECT_EQ(hinge.found, (std::array<bool, 4>{true, true, true, true}));
-      for (const std::size_t apart : {2UL, 3UL}) {
-        EXPECT_TRUE(around_corner(points_around<3, 2, 2>(face(i, false), face(i + apart, false), 0, {1, 2}, {1, 2})));
-      }
+  const auto face = [&](std::size_t i, bool turned) {
+    std::array<Position, 3> x = {};
+    for (std::size_t k = 1; k < 3; ++k) x[k] = {ring[(i + k - 1) % 6][0], stretch * ring[(i + k - 1) % 6][1], 0};
+    if (turned) std::swap(x[1], x[2]);
+    return step_cell<Dim>(x, x);
+  };
+  int second = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    SCOPED_TRACE(::testing::Message() << "stretch " << stretch << ", face " << i);
+    const auto hinge = around_edge(points_around<Dim, 2, 1>(face(i, true), face(i + 1, false), 0, {1, 2}, {2}));
+    EXPECT_EQ(hinge.found, (std::array<bool, 4>{true, true, true, true}));
+    for (const std::size_t apart : {2UL, 3UL}) {
+      const auto points = points_around<Dim, 2, 2>(face(i, false), face(i + apart, false), 0, {1, 2}, {1, 2});
+      EXPECT_TRUE(around_corner(points));
+      if (!separates_corner(points, between_middles(points))) ++second;
     }
+  }
+  EXPECT_GT(second, 0) << "the second direction was never needed";
+}
+
+TEST(Around, UsualDirectionsSettleAllFacesAroundAVertexOfAGrid) {
+  for (const double stretch : {1.0, 0.3, 3.0}) {
+    expect_settled_around_a_vertex<3>(stretch);
+    expect_settled_around_a_vertex<2>(stretch);
   }
 }
 
-/// Whether n.(p - q) > 0, exactly, for all p of one list and all q of another.
-bool truly_above(const std::vector<Position>& above, const std::vector<Position>& below, const Direction<3>& n) {
-  return std::ranges::all_of(above, [&](const Position& p) {
-    return std::ranges::all_of(below, [&](const Position& q) {
-      mpq_class sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += n[k] * (mpq_class(p[k]) - q[k]);
-      return sum > 0;
-    });
-  });
+TEST(Around, FlatHingesAreSettledWhateverTheirAngles) {
+  Random random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const Position a = {0, 0, 0}, b = {1, 0, 0};
+    const Position c = {0.5 + 3 * random.unit(), 1.1 + random.unit(), 0};
+    const Position d = {0.5 + 3 * random.unit(), -1.1 + random.unit(), 0};
+    const auto around = around_edge(
+        points_around<3, 2, 1>(step_cell<3>({a, b, c}, {a, b, c}), step_cell<3>({a, b, d}, {a, b, d}), 0, {1, 2}, {2}));
+    EXPECT_EQ(around.found, (std::array<bool, 4>{true, true, true, true})) << c[0] << ' ' << c[1] << ", " << d[0];
+  }
 }
 
 /// Five points near those of two flat faces around their first corner, (0, 1, 2) and (0, 3, 4), at both ends.
-std::array<std::array<Position, 5>, 2> random_fan(Random& random) {
+std::array<std::array<Position, 5>, 2> random_fan(Random& random, const Scale& scale) {
   std::array<std::array<Position, 5>, 2> x = {};
   double angle = 0;
   for (std::size_t i = 1; i < 5; ++i) {
-    angle += 0.2 + 1.4 * random.unit();
-    const double length = 0.1 + random.unit();
+    angle += 0.9 + 0.7 * random.unit();
+    const double length = 0.6 + 0.5 * random.unit();
     x[0][i] = {length * std::cos(angle), length * std::sin(angle), 0};
   }
   x[1] = x[0];
   for (auto& at_end : x) {
     for (Position& p : at_end) {
-      for (double& c : p) c += 0.2 * random.unit();
+      for (double& c : p) c = scale.offset + scale.size * (c + 0.2 * random.unit());
     }
   }
   return x;
 }
 
-TEST(Around, WhatIsClaimedOfACornerHolds) {
+Points exactly(const std::vector<Position>& points) {
+  Points result;
+  for (const Position& p : points) result.emplace_back(p.begin(), p.end());
+  return result;
+}
+
+TEST_P(Separation, WhatIsClaimedOfACornerHolds) {
   Random random(4);
   int claims = 0, silences = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const auto x = random_fan(random);
+  for (int i = 0; i < 1000; ++i) {
+    const auto x = random_fan(random, GetParam());
     const auto face = [&](std::size_t b, std::size_t c) {
       return step_cell<3>({x[0][0], x[0][b], x[0][c]}, {x[1][0], x[1][b], x[1][c]});
     };
@@ -300,32 +337,37 @@ TEST(Around, WhatIsClaimedOfACornerHolds) {
     ++(n ? claims : silences);
     if (!n) continue;
     for (const auto& [a, b, c, d, e] : x) {
-      EXPECT_TRUE(truly_above({b, c}, {a, d, e}, *n));
-      EXPECT_TRUE(truly_above({a, b, c}, {d, e}, *n));
+      EXPECT_TRUE(truly_above<3>(exactly({b, c}), exactly({a, d, e}), *n));
+      EXPECT_TRUE(truly_above<3>(exactly({a, b, c}), exactly({d, e}), *n));
     }
   }
-  EXPECT_GT(claims, 0);
   EXPECT_GT(silences, 0);
+  EXPECT_EQ(claims > 0, GetParam().squares_fit());
 }
 
-TEST(Around, WhatIsClaimedOfAnEdgeHolds) {
+TEST_P(Separation, WhatIsClaimedOfAnEdgeHolds) {
   Random random(5);
-  int claims = 0, silences = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const auto x = random_fan(random);  // c and d, points 1 and 3, are on either side of the edge from 0 to 2
+  std::array<int, 4> claims = {}, silences = {};
+  for (int i = 0; i < 1000; ++i) {
+    const auto x = random_fan(random, GetParam());  // points 1 and 3 are on either side of the edge from 0 to 2
     const auto a = step_cell<3>({x[0][0], x[0][2], x[0][1]}, {x[1][0], x[1][2], x[1][1]});
     const auto b = step_cell<3>({x[0][0], x[0][2], x[0][3]}, {x[1][0], x[1][2], x[1][3]});
     const auto around = around_edge(points_around<3, 2, 1>(a, b, 0, {1, 2}, {2}));
-    for (const bool found : around.found) ++(found ? claims : silences);
+    for (std::size_t k = 0; k < 4; ++k) ++(around.found[k] ? claims : silences)[k];
     for (const auto& [p, c, q, d, unused] : x) {  // the edge is (p, q)
-      EXPECT_TRUE(!around.found[0] || truly_above({c}, {p, q, d}, around.n[0]));
-      EXPECT_TRUE(!around.found[1] || truly_above({q, c}, {p, d}, around.n[1]));
-      EXPECT_TRUE(!around.found[2] || truly_above({p, c}, {q, d}, around.n[2]));
-      EXPECT_TRUE(!around.found[3] || truly_above({p, q, c}, {d}, around.n[3]));
+      const std::array<std::array<Points, 2>, 4> parts = {{{exactly({c}), exactly({p, q, d})},
+                                                           {exactly({q, c}), exactly({p, d})},
+                                                           {exactly({p, c}), exactly({q, d})},
+                                                           {exactly({p, q, c}), exactly({d})}}};
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_TRUE(!around.found[k] || truly_above<3>(parts[k][0], parts[k][1], around.n[k])) << k;
+      }
     }
   }
-  EXPECT_GT(claims, 0);
-  EXPECT_GT(silences, 0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_GT(silences[k], 0) << k;
+    EXPECT_EQ(claims[k] > 0, GetParam().squares_fit()) << k;
+  }
 }
 
 }  // namespace

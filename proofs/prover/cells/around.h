@@ -8,13 +8,14 @@
 //             = 0
 //   abc, ade  two faces around a corner: if b, c are above a along n, and d, e below, n separates (bc, ade) and (abc,
 //             de). Two directions are tried. The first goes from the middle of de to that of bc; in a grid of right
-//             triangles it fails for half of the pairs. The second is the difference of unit vectors along the closest
-//             two edges, say ac and ad. In a plane and within half a turn it separates: b is at a smaller angle to c
-//             than to d.
+//             triangles it fails for four of the nine pairs around a vertex. The second is the difference of unit
+//             vectors along the closest two edges, say ac and ad. If both faces lie in a plane, side by side within
+//             half a turn, it separates them: b is closer in angle to c than to d, and e closer to d than to c.
 //   abc, abd  two faces around an edge. Of the four pairs of parts, n across the edge separates (c, abd) and (abc, d)
 //             if c is above and d below both a and b along n; one direction each is tried for (bc, ad) and (ac, bd):
-//             n + h (b - a) and n - h (b - a). If the hinge is nearly flat, they separate where h |(c - d).(b - a)| is
-//             below n.n. So h is 1, or half of the limit if that is less.
+//             n + h (b - a) and n - h (b - a). An obtuse angle at a or b, or a triangle that leans along the edge,
+//             limits h: four differences of corners must stay positive along the direction at mid-time. So h is 1 or,
+//             if that fails, half of the least limit.
 //   abc, def  two cells without a common vertex
 //
 // proofs/prover/cell_pair.h settles the rest.
@@ -116,7 +117,8 @@ std::array<double, Dim> between_middles(const PointsAround<Dim, 4>& points) {
 }
 
 /// Points b, c, d, e: the difference of two unit vectors at mid-time, towards b or c and towards d or e, whichever two
-/// are at the smallest angle. Not finite if a point is at the origin.
+/// are at the smallest angle. It may be 0, infinite or NaN if a length is 0, overflows or underflows, and then passes no
+/// test.
 template <int Dim>
 std::array<double, Dim> between_closest_edges(const PointsAround<Dim, 4>& points) {
   std::array<std::array<double, Dim>, 4> u;
@@ -185,6 +187,24 @@ inline std::array<double, 3> mid_normal(const std::array<BothEnds, 3>& p, const 
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
+namespace detail {
+
+/// A difference of corners, along n and along the edge: height + h along has to be positive.
+struct AboveAlongEdge {
+  double height, along;
+};
+
+/// How much of the edge to add to n: 1, or half of the least limit.
+inline double share_of_edge(const std::array<AboveAlongEdge, 3>& conditions) {
+  double h = 1;
+  for (const auto& [height, along] : conditions) {
+    if (along < 0 && height < -2 * along * h) h = height / (-2 * along);
+  }
+  return h;
+}
+
+}  // namespace detail
+
 /// The directions found around an edge, in the order (c, abd), (bc, ad), (ac, bd), (abc, d).
 template <int Dim>
 struct AroundEdge {
@@ -196,31 +216,37 @@ struct AroundEdge {
 template <int Dim, std::size_t Count, class Round = decltype(as_it_is)>
 AroundEdge<Dim> around_edge(const PointsAround<Dim, Count>& points, const Round& round = {}) {
   constexpr std::size_t b = 0, c = 1, d = 2;
-  std::array<double, Dim> edge, across;
-  double along = 0, length = 0;
+  std::array<double, Dim> edge, to_c, to_d, n;
   for (std::size_t k = 0; k < Dim; ++k) {
     edge[k] = detail::twice_middle(points.d[b][k]);
-    across[k] = detail::twice_middle(points.d[c][k] - points.d[d][k]);
-    along += across[k] * edge[k];
-    length += edge[k] * edge[k];
+    to_c[k] = detail::twice_middle(points.d[c][k]);
+    to_d[k] = detail::twice_middle(points.d[d][k]);
   }
+  const double e_b = formula::dot(edge, edge), e_c = formula::dot(edge, to_c), e_d = formula::dot(edge, to_d);
+  for (std::size_t k = 0; k < Dim; ++k) n[k] = to_c[k] - to_d[k] - (e_c - e_d) / e_b * edge[k];
   AroundEdge<Dim> result;
-  for (std::size_t k = 0; k < Dim; ++k) result.n[0][k] = across[k] - along / length * edge[k];
-  const double square = formula::dot(result.n[0], result.n[0]), limit = 2 * std::abs(along);
-  const double h = square < limit ? square / limit : 1;
-  for (std::size_t k = 0; k < Dim; ++k) {
-    result.n[1][k] = result.n[0][k] + h * edge[k];  // b, c above a, d
-    result.n[2][k] = result.n[0][k] - h * edge[k];  // a, c above b, d
-  }
-  for (std::size_t i = 0; i < 3; ++i) result.n[i] = round(result.n[i]);
-  result.n[3] = result.n[0];
+  result.n[0] = result.n[3] = round(n);
   const auto p = project(points, result.n[0]);
   result.found[0] = p.above_origin(c) && p.above(c, b) && p.above(c, d);
   result.found[3] = p.below_origin(d) && p.above(b, d) && p.above(c, d);
-  const auto q = project(points, result.n[1]);
-  result.found[1] = q.above_origin(b) && q.above_origin(c) && q.above(b, d) && q.above(c, d);
-  const auto r = project(points, result.n[2]);
-  result.found[2] = r.below_origin(b) && r.below_origin(d) && r.above(c, b) && r.above(c, d);
+  const auto try_bc = [&](double h) {
+    for (std::size_t k = 0; k < Dim; ++k) result.n[1][k] = n[k] + h * edge[k];
+    result.n[1] = round(result.n[1]);
+    const auto q = project(points, result.n[1]);
+    result.found[1] = q.above_origin(b) && q.above_origin(c) && q.above(b, d) && q.above(c, d);
+  };
+  const auto try_ac = [&](double h) {
+    for (std::size_t k = 0; k < Dim; ++k) result.n[2][k] = n[k] - h * edge[k];
+    result.n[2] = round(result.n[2]);
+    const auto r = project(points, result.n[2]);
+    result.found[2] = r.below_origin(b) && r.below_origin(d) && r.above(c, b) && r.above(c, d);
+  };
+  try_bc(1);
+  try_ac(1);
+  if (result.found[1] && result.found[2]) return result;
+  const double n_c = formula::dot(n, to_c), n_d = formula::dot(n, to_d);
+  if (!result.found[1]) try_bc(detail::share_of_edge({{{n_c, e_c}, {-n_d, e_b - e_d}, {n_c - n_d, e_c - e_d}}}));
+  if (!result.found[2]) try_ac(detail::share_of_edge({{{n_c, e_b - e_c}, {-n_d, e_d}, {n_c - n_d, e_d - e_c}}}));
   return result;
 }
 
