@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "certify/process/this_program.h"
+#include "certify/proofs/checker.h"
 #include "report/figures/png.h"
 #include "report/page/report_page.h"
 
@@ -24,8 +25,8 @@ bool is_beside_this(const char* program) {
 
 std::string parts_text() {
   std::vector<const char*> without;
-  if (!is_beside_this("noli_check")) without.push_back("proof checker");
-  if (!is_beside_this("noli_check_verified")) without.push_back("verified checker");
+  if (!has_checker(Checker::plain)) without.push_back("proof checker");
+  if (!has_checker(Checker::verified)) without.push_back("verified checker");
   if (!report::has_report_page()) without.push_back("reports");
   if (!report::can_write_png()) without.push_back("pictures");
   if (!is_beside_this("noli_series")) without.push_back("series.h5");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "certify/proofs/asked_fields.h"
+#include "certify/proofs/checker.h"
 #include "certify/proofs/claim.h"
 #include "report/input_report.h"
 #include "trajectory/text.h"
@@ -100,7 +101,7 @@ Answer check_answer(const Checked& checked) {
   const std::size_t at = what.find(touches);
   if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
-  answer.next = next_step(verdict, checker.name == "noli_check" && joined == 0);
+  answer.next = next_step(verdict, checker.name == "noli_check" && joined == 0 && has_checker(Checker::verified));
   return answer;
 }
 

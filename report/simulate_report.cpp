@@ -12,6 +12,7 @@
 #include "certify/simulate/energy_watch.h"
 #include "certify/simulate/phase_clock.h"
 #include "kernel/parallel.h"
+#include "report/page/report_page.h"
 
 namespace noli::report {
 namespace {
@@ -195,8 +196,11 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   const std::string scene = shell_words({request.scene.string()}), run = shell_words({path}),
                     page = shell_words({path + ".html"});
+  const std::string shown = has_report_page()
+                                ? fmt::format("noli report {} -o {}", run, page)
+                                : fmt::format("noli export {} -o {}", run, shell_words({path + "_%d.obj"}));
   switch (outcome.end) {
-    case RunEnd::contact: return fmt::format("noli report {} -o {} shows the motion up to there.", run, page);
+    case RunEnd::contact: return shown + " shows the motion up to there.";
     case RunEnd::unstable:
     case RunEnd::not_finite: return fmt::format("noli explain {} tells which steps are too long.", scene);
     case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
@@ -209,7 +213,7 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
                                          : "");
     case RunEnd::done:
       if (outcome.windows == 0) return "";
-      return fmt::format("noli report {} -o {} shows the run; noli explain {} tells how it went.", run, page, run);
+      return fmt::format("{} shows the run; noli explain {} tells how it went.", shown, run);
   }
   return "";
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <noli/errors.h>
@@ -30,6 +31,11 @@ std::string name_of_file(const fs::path& path) {
 
 }  // namespace
 
+bool has_checker(Checker checker) {
+  std::error_code error;
+  return fs::exists(beside_this_program(name_of(checker)), error);
+}
+
 CheckerVersion version_of(Checker checker) {
   ProgramLimits limits;
   limits.time = std::chrono::seconds(10);
@@ -45,6 +51,11 @@ CheckerVersion version_of(Checker checker) {
 
 std::vector<std::string> CheckerProcess::command(const CheckRequest& request) {
   const std::string name = name_of(request.checker);
+  if (request.programs.empty() && request.checker == Checker::verified && !has_checker(Checker::verified)) {
+    throw UsageError(
+        "this noli was built without the verified checker; install ocaml-findlib and libzarith-ocaml-dev, and build "
+        "again");
+  }
   std::vector<std::string> words = {
       (request.programs.empty() ? beside_this_program(name) : request.programs / name).string()};
   for (const std::string& field : request.asked) words.insert(words.end(), {"--require", field});

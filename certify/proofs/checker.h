@@ -16,11 +16,14 @@
 
 namespace noli {
 
+/// Whether the checker was built with this program.
+bool has_checker(Checker checker);
+
 /// A running checker. It does not get the signals of the terminal: this process gets them and ends it. The destructor
 /// ends it if it has not ended.
 class CheckerProcess {
  public:
-  /// Starts it. Throws std::runtime_error when there is no such checker.
+  /// Starts it. Throws UsageError when there is no verified checker, std::runtime_error when there is no plain one.
   explicit CheckerProcess(const CheckRequest& request);
   CheckerProcess(const CheckerProcess&) = delete;
   CheckerProcess& operator=(const CheckerProcess&) = delete;

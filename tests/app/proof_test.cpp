@@ -241,6 +241,23 @@ TEST_F(Proof, GoesToTheCheckerAtOnceIfNobodyWantsAFile) {
   EXPECT_EQ(verify(triangles({1, 0.5, -2}), {"--no-check"}).out.find("The checker says"), std::string::npos);
 }
 
+TEST_F(Proof, ABuildWithoutTheVerifiedCheckerSaysSo) {
+  const auto frames = triangles({1, 0.5});
+  const std::string proof = folder.path("p.noli");
+  ASSERT_EQ(run_noli({"verify", frames[0], frames[1], "--proof", proof}).exit_code, 0);
+  const fs::path programs = fs::path(NOLI_COMMAND).parent_path();
+  for (const char* program : {"noli", "noli_check"}) fs::copy_file(programs / program, folder.path(program));
+  const auto check_with = [&](const std::string& option) {
+    const std::string command = folder.path("noli") + " check " + proof + " " + frames[0] + " " + frames[1] + option +
+                                " >" + folder.path("out") + " 2>" + folder.path("err");
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  EXPECT_EQ(check_with(""), 0);
+  EXPECT_EQ(read_text(folder.path("out")).find("--verified"), std::string::npos);
+  EXPECT_EQ(check_with(" --verified"), 3);
+  EXPECT_NE(read_text(folder.path("err")).find("built without the verified checker; install"), std::string::npos);
+}
+
 TEST_F(Proof, ACheckerIsNotTrustedBlindly) {
   const auto frames = triangles({1, 0.5});
   fs::copy_file(NOLI_COMMAND, folder.path("noli"));
