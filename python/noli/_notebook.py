@@ -27,7 +27,7 @@ def html_of(result):
 
 
 def html_of_repair(repaired, *, with_page):
-    """The same for a motion that was mended. ``with_page``: it can be read again."""
+    """The same for a motion that was repaired. ``with_page``: it can be read again."""
     changed = repaired.to_json()["changed"]
     columns = ("step", "moved", "largest", "rms", "inserted")
     rows = [
