@@ -117,8 +117,8 @@ std::array<double, Dim> between_middles(const PointsAround<Dim, 4>& points) {
 }
 
 /// Points b, c, d, e: the difference of two unit vectors at mid-time, towards b or c and towards d or e, whichever two
-/// are at the smallest angle. It may be 0, infinite or NaN if a length is 0, overflows or underflows, and then passes no
-/// test.
+/// are at the smallest angle. It may be 0, infinite or NaN if a length is 0, overflows or underflows, and then no test
+/// passes.
 template <int Dim>
 std::array<double, Dim> between_closest_edges(const PointsAround<Dim, 4>& points) {
   std::array<std::array<double, Dim>, 4> u;
