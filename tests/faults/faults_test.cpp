@@ -8,8 +8,8 @@
 //   kind    of a call, as counted by preload/faults.cpp
 //   number  of a call among those of its kind, from 1
 //
-// The fast tests try some numbers of each kind, the slow ones more. With NOLI_EVERY_FAULT=1 the slow ones try all single
-// faults, and at most `most_lasting` lasting ones of a kind.
+// The fast tests try some numbers of each kind, the slow ones more. With NOLI_EVERY_FAULT=1 the slow ones try all
+// single faults, and at most `most_lasting` lasting ones of a kind.
 #include <gtest/gtest.h>
 
 #include <algorithm>
