@@ -122,7 +122,8 @@ struct CheckRequest {
 
 /// Starts a checker on a proof in a file and waits until it ends. Precondition: `proof` is set. Throws Stopped;
 /// UsageError when this library was built without the verified checker; HelperError when the machine failed the checker
-/// (memory, a signal); std::runtime_error when there is no such program, it stops reading, or it ends with an unexpected exit code.
+/// (memory, a signal); std::runtime_error when there is no such program, it stops reading, or it ends with an
+/// unexpected exit code.
 CheckerVerdict check_proof(const CheckRequest& request);
 
 /// The files that checkers read: for a run its trajectory.blocks, otherwise the frames as they are.
