@@ -19,6 +19,11 @@ std::optional<RunWindow> SeriesReader::next_window() {
   return window;
 }
 
+void SeriesReader::skip_to(std::uint64_t window) {
+  if (windows() < window) state_.reset();
+  RunReader::skip_to(window);
+}
+
 void SeriesReader::take_row(const RunWindow& window) {
   const std::optional<WindowState> before = std::exchange(state_, std::nullopt);
   why_none_ = not_a_row(window.state);

@@ -22,6 +22,9 @@ class SeriesReader : public RunReader {
   /// Like RunReader's. Also throws InputError when the state is a row of this version with impossible numbers.
   std::optional<RunWindow> next_window();
 
+  /// Like RunReader's. The row of the next window is then not compared with that of the one before it.
+  void skip_to(std::uint64_t window);
+
   /// The state of the last window read. Throws InputError when it is not a row of this version.
   const WindowState& state() const;
   const SeriesRow& row() const { return state().row; }

@@ -80,6 +80,42 @@ TEST_P(RunFile, MayHaveNoWindows) {
   EXPECT_EQ(read.open_window, std::nullopt);
 }
 
+TEST_P(RunFile, IsReadFromAnyWindowOn) {
+  const SampleRun written = run(4);
+  const std::string bytes = write_run(written).bytes;
+  for (std::uint64_t read = 0; read < 4; ++read) {
+    for (std::uint64_t first = read; first < 4; ++first) {
+      RunReader reader(bytes, "run"), all(bytes, "run");
+      for (std::uint64_t k = 0; k < read; ++k) ASSERT_TRUE(reader.next_window());
+      reader.skip_to(first);
+      EXPECT_EQ(reader.windows(), first);
+      for (std::uint64_t k = 0; k < first; ++k) ASSERT_TRUE(all.next_window());
+      EXPECT_EQ(reader.running_hash(), all.running_hash());
+      EXPECT_EQ(reader.group_hash(), all.group_hash());
+      for (std::uint64_t k = first; k < 4; ++k)
+        expect_same(written.windows[k], *reader.next_window(), written.scene.header);
+      EXPECT_FALSE(reader.next_window());
+    }
+  }
+}
+
+/// The hash and the place of what follows are still checked.
+TEST_P(RunFile, HasNoWindowBehindItsEnd) {
+  const WrittenRun whole = write_run(run(3));
+  for (std::size_t kept = whole.commits[2]; kept < whole.bytes.size(); ++kept) {
+    RunReader reader(whole.bytes.substr(0, kept), "run");
+    EXPECT_EQ(input_error([&] { reader.skip_to(3); }), "run: ends before window 4") << kept;
+    EXPECT_EQ(reader.windows(), 2u);
+    EXPECT_FALSE(reader.next_window());
+  }
+  RunReader reader(whole.bytes, "run");
+  reader.skip_to(3);
+  EXPECT_FALSE(reader.next_window());
+  RunReader known(whole.bytes, "run");
+  known.expect({2, Sha256Digest{}, false});
+  EXPECT_NE(input_error([&] { known.skip_to(3); }).find("has running hash"), std::string::npos);
+}
+
 TEST_P(RunFile, ResumedAnywhereHasTheSameBytes) {
   const SampleRun written = run(3);
   const WrittenRun whole = write_run(written);

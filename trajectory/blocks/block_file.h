@@ -139,6 +139,12 @@ class BlockReader {
   /// or when a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
+  /// Passes over the group that comes next by the headers of its blocks. Of what it passes over, only the checksum and
+  /// number of the commit are checked, so committed() then has the hashes that the commit block tells. False if no
+  /// commit follows; nothing changes then. Precondition: next() gave a commit last, or nothing yet. Throws InputError
+  /// for a commit out of order.
+  bool skip_group();
+
   /// Counts the commit blocks by the headers of all blocks, and gives the running hash of the commit that closes
   /// `group` (from 1). Nothing is checked.
   CommitLook look_at_commits(std::uint64_t group = 0);
@@ -160,6 +166,7 @@ class BlockReader {
   std::string read(std::uint64_t offset, std::uint64_t count);
   std::optional<std::string> read_block(std::uint64_t offset, std::string& header, std::string& body);
   bool commit_follows(std::uint64_t from);
+  void require_next_commit(const Block& block) const;
   void check_commit(const Block& block);
   [[noreturn]] void fail(std::uint64_t offset, const std::string& problem) const;
 

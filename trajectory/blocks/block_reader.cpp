@@ -123,7 +123,8 @@ bool BlockReader::commit_follows(std::uint64_t from) {
   return false;
 }
 
-void BlockReader::check_commit(const Block& block) {
+/// Its length and its number.
+void BlockReader::require_next_commit(const Block& block) const {
   if (block.payload.size() != block_format::commit_payload_size) {
     fail(block.offset,
          fmt::format("a commit of {} bytes, expected {}", block.payload.size(), block_format::commit_payload_size));
@@ -132,6 +133,10 @@ void BlockReader::check_commit(const Block& block) {
   if (number != committed_.groups) {
     fail(block.payload_offset(), fmt::format("commit {} where commit {} was expected", number, committed_.groups));
   }
+}
+
+void BlockReader::check_commit(const Block& block) {
+  require_next_commit(block);
   const Sha256Digest group = hash_.digest();
   if (digest_at(block.payload, 8) != group) {
     fail(block.payload_offset() + 8, "the hash does not fit the blocks since the commit before");
@@ -162,6 +167,26 @@ std::optional<Block> BlockReader::next() {
   block.payload = std::move(body);
   if (block.kind == block_format::commit) check_commit(block);
   return block;
+}
+
+bool BlockReader::skip_group() {
+  using namespace block_format;
+  for (std::uint64_t at = at_; size_ - at >= block_header_size + checksum_size;) {
+    const std::string header = read(at, block_header_size);
+    const auto length = get<std::uint64_t>(header.data() + 4);
+    if (length > size_ - at - block_header_size - checksum_size) return false;
+    const std::uint64_t end = at + block_header_size + length + checksum_size;
+    if (get<FourLetters>(header.data()) == commit) {
+      const std::optional<Block> block = look_at_block(at);
+      if (!block) return false;
+      require_next_commit(*block);
+      committed_ = {end, committed_.groups + 1, digest_at(block->payload, 40), digest_at(block->payload, 8)};
+      at_ = end;
+      return true;
+    }
+    at = end;
+  }
+  return false;
 }
 
 CommitLook BlockReader::look_at_commits(std::uint64_t group) {

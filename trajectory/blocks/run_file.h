@@ -175,6 +175,11 @@ class RunReader {
   /// look_again() may be called.
   std::optional<RunWindow> next_window();
 
+  /// Makes `window` the one that next_window() gives, without reading those before it: that it begins where the one
+  /// before ended is then not checked, nor are the hashes of what was passed over. Precondition: windows() <= window.
+  /// Throws InputError when the file has not that many.
+  void skip_to(std::uint64_t window);
+
   /// After next_window() returned nothing: where a window begins that was never committed, if there is one. That is not
   /// an error, but tell the user with open_window_message().
   std::optional<std::uint64_t> open_window() const { return blocks_.open_group(); }
@@ -196,6 +201,8 @@ class RunReader {
   /// A quick look, which reads no world line and checks no hash. next_window() reports damage.
   RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
+  /// Of the window that was read, or passed over, last.
+  const Sha256Digest& group_hash() const { return blocks_.committed().group; }
 
  private:
   friend class RunWriter;

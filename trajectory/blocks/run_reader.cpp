@@ -147,6 +147,15 @@ std::optional<RunWindow> RunReader::next_window() {
   return window;
 }
 
+void RunReader::skip_to(std::uint64_t window) {
+  for (; windows() < window; last_.reset()) {
+    if (!blocks_.skip_group()) {
+      throw InputError(blocks_.name(), "", fmt::format("ends before window {}", window + 1));
+    }
+    if (windows() == known_.count) require_hash(running_hash());
+  }
+}
+
 void RunReader::expect(const KnownWindows& known) {
   known_ = known;
   if (windows() == known_.count) require_hash(running_hash());
