@@ -22,9 +22,9 @@ class DecidedSteps {
   DecidedSteps(const DecidedSteps&) = delete;
   DecidedSteps& operator=(const DecidedSteps&) = delete;
 
-  /// What was found in a step of the mesh, without its proof. Throws InputError when the step is missing, damaged,
-  /// or was decided for other files.
-  virtual StepResult result(std::uint64_t step, const Mesh& mesh) = 0;
+  /// What was found in a step of the mesh, without its proof. `window`: of a run, the hash of its group. Throws
+  /// InputError when the step is missing, damaged, or was decided for other files or another window.
+  virtual StepResult result(std::uint64_t step, const Mesh& mesh, const std::optional<Sha256Digest>& window = {}) = 0;
   /// The blocks of the proof or witness of the step that result() gave last; none if none was found. Throws as
   /// result().
   virtual void blocks(const std::function<void(FourLetters, std::string_view)>& take) = 0;
@@ -36,8 +36,9 @@ class DecidedSteps {
   /// A folder with room for about as much as the proof takes.
   virtual std::filesystem::path scratch() const = 0;
 
-  /// The files that are read, once they were looked at, and the claim: steps that were decided for others are refused.
+  /// Of frames: the files, once they were looked at. Steps that were decided for others are refused.
   virtual void set_inputs(const std::vector<FrameFacts>& files) = 0;
+  /// The claim, as far as it is known before the first step. Steps that were decided for another are refused.
   virtual void set_claim(const Claim& claim) = 0;
 };
 

@@ -92,12 +92,12 @@ Position meeting_point(FeaturePair pair, int dimension, std::span<const Position
   return dimension == 2 ? between_edges<2>(pair, x) : between_edges<3>(pair, x);
 }
 
-ListedContact listed_in_window(const FirstInWindow& first, const WorldLines& lines, int dimension) {
+ListedContact listed_in_window(const FeatureContact& contact, ContactKind kind, double time, const WorldLines& lines,
+                               int dimension) {
   std::array<Position, 4> x{};
-  const std::size_t size = point_count(first.contact.pair);
-  for (std::size_t i = 0; i < size; ++i) x[i] = sample(lines, first.contact.vertices[i], first.lower());
-  const Position point = meeting_point(first.contact.pair, dimension, {x.data(), size});
-  return {first.contact, 0, first.kind, first.lower(), point, {}, {}};
+  const std::size_t size = point_count(contact.pair);
+  for (std::size_t i = 0; i < size; ++i) x[i] = sample(lines, contact.vertices[i], time);
+  return {contact, 0, kind, time, meeting_point(contact.pair, dimension, {x.data(), size}), {}, {}};
 }
 
 std::vector<std::size_t> fair_shares(std::span<const std::size_t> counts, std::size_t most) {

@@ -29,8 +29,9 @@ namespace noli {
 /// The point at which two features meet. x: the positions of their vertices, those of the first feature first.
 Position meeting_point(FeaturePair pair, int dimension, std::span<const Position> x);
 
-/// The first contact of a window with these lines, without its step.
-ListedContact listed_in_window(const FirstInWindow& first, const WorldLines& lines, int dimension);
+/// A contact of a window with these lines, without its step. `time`: when it begins.
+ListedContact listed_in_window(const FeatureContact& contact, ContactKind kind, double time, const WorldLines& lines,
+                               int dimension);
 
 /// How many contacts each step may list: at most its entry of `counts`, and `most` in all.
 std::vector<std::size_t> fair_shares(std::span<const std::size_t> counts, std::size_t most);

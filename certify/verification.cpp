@@ -10,6 +10,7 @@
 
 #include <noli/contact.h>
 #include <noli/time_of_impact.h>
+#include "certify/decided_steps.h"
 
 namespace noli {
 
@@ -78,6 +79,11 @@ void Verification::list_contacts(const Mesh& mesh, const BodyNames& names) {
   if (outcome_.near) name(*outcome_.near);
 }
 
+bool Verification::goes_to_proof(const Findings& found) const {
+  if (found.touches()) return request_.only || (!outcome_.no_proof && !outcome_.near);
+  return !outcome_.no_proof && !outcome_.near && !outcome_.touches();
+}
+
 void Verification::search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
                                 const VerifyOptions& options) {
   try {
@@ -91,6 +97,26 @@ void Verification::search_proof(StepProofs& proof, const MotionStep& step, const
   } catch (const NoProof&) {
     note_no_proof();
   }
+}
+
+bool Verification::take_proof(StepProofs& proof, const MotionStep& step, const Findings& found, const Mesh& mesh) {
+  DecidedSteps& decided = *request_.decided;
+  bool written = false;
+  try {
+    written = proof.copy(step, [&](const auto& take) { decided.blocks(take); });
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  const auto near = found.touches() ? std::nullopt : decided.near(mesh);
+  if (found.touches() || near) outcome_.witnesses += written ? 1 : 0;
+  if (near) {
+    outcome_.near = near;
+    outcome_.near->step = outcome_.steps.size();
+    if (outcome_.steps.size() == 1) outcome_.largest_distance = decided.largest_distance();
+  } else if (!found.touches() && !written) {
+    note_no_proof();
+  }
+  return true;
 }
 
 void Verification::note_no_proof() {

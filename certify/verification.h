@@ -44,6 +44,10 @@ class Verification {
   /// Lists contacts with their cells and bodies. Call it when all steps have been added.
   void list_contacts(const Mesh& mesh, const BodyNames& names);
 
+  /// Whether the last step, which was decided, goes to the proof. Not after a step of which no proof was found, nor
+  /// where a checker does not go on. Of some steps alone, each witness may count, and whoever joins them decides about
+  /// proofs: what comes before these steps may leave one out.
+  bool goes_to_proof(const Findings& found) const;
   /// Finds the proof of the last step, in which nothing touches. If something is too near, finds a witness instead, and
   /// in the first step the largest least distance that holds.
   void search_proof(StepProofs& proof, const MotionStep& step, const WindowVerifier& verifier,
@@ -54,6 +58,8 @@ class Verification {
     const auto first = result.first ? std::optional(result.first->contact) : std::nullopt;
     if (proof.refute(step, first, result)) ++outcome_.witnesses;
   }
+  /// Copies the proof or witness of the last step from `request.decided`. False if that is about another motion.
+  bool take_proof(StepProofs& proof, const MotionStep& step, const Findings& found, const Mesh& mesh);
   void note_no_proof();
   /// Says in which steps the least distance was not looked at, if there are any. Call it when all have been added.
   void note_distance();

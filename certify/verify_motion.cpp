@@ -8,7 +8,9 @@
 #include <thread>
 
 #include <noli/errors.h>
+#include <noli/sequence.h>
 #include <noli/verify.h>
+#include "certify/decided_steps.h"
 #include "certify/not_compared.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/proofs/trajectory_pipe.h"
@@ -76,11 +78,12 @@ class RunVerification : private Verification {
     }
     outcome_.reproduced = request.reproduce;
     set_claim();
+    if (request.decided) request.decided->set_claim(outcome_.claim);
   }
 
   VerifyOutcome operator()() {
     const Stopwatch watch;
-    look_at_files();
+    if (!request_.only) look_at_files();  // otherwise whoever joins the windows does
     try {
       verify_windows();
     } catch (const Stopped&) {
@@ -95,14 +98,35 @@ class RunVerification : private Verification {
  private:
   void verify_windows() {
     if (request_.reproduce) make_again();
+    if (request_.only && !skip_to_first()) return;
     while (outcome_.complete) {
       auto window = read_next();
       if (window) read_to_ = window->end;
       // A stop after the last window changes nothing.
-      if (!window || stopped() || !reproduce(*window)) break;
-      verify(*window);
-      if (enough()) break;
+      if (!window || stopped() || !verify(*window)) break;
+      if (enough() || (request_.only && window->index + 1 >= request_.only->end)) break;
     }
+  }
+
+  /// Of some windows alone, the first of all still says how cells are grouped, and the one before them where they
+  /// begin. False if it was stopped.
+  bool skip_to_first() {
+    const Stopwatch watch;
+    const std::uint64_t first = request_.only->first;
+    if (first == 0) return true;
+    auto before = next_committed();
+    if (before && !stopped()) group_cells(*before);
+    if (before && first > 1) {
+      reader_.skip_to(first - 1);
+      before = next_committed();
+    }
+    if (before && again_) again_->go_on_behind(*before, reader_.state());
+    outcome_.read_seconds += watch.seconds();
+    return before && !stopped();
+  }
+
+  void group_cells(const RunWindow& first) {
+    verifier_.emplace(reader_.mesh(), first.lines ? beginning_of(*first.lines) : again_->beginning(), options());
   }
 
   void look_at_files() {
@@ -203,10 +227,15 @@ class RunVerification : private Verification {
     again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
   }
 
-  /// Integrates the window again and gives it its world lines. False if it was stopped.
-  bool reproduce(RunWindow& window) {
+  /// Integrates the window again and gives it its world lines. False if it was stopped. What was decided elsewhere is
+  /// integrated only where something touches.
+  bool reproduce(RunWindow& window, const std::optional<StepResult>& decided) {
     if (!again_) return true;
     const Stopwatch watch;
+    if (decided && !decided->touches()) {
+      again_->go_on_behind(window, reader_.state());
+      return true;
+    }
     auto lines = again_->next(window, reader_.state());
     outcome_.reproduce_seconds += watch.seconds();
     if (lines) window.lines = std::move(lines);
@@ -217,7 +246,7 @@ class RunVerification : private Verification {
     WindowOptions options;
     options.dimension = outcome_.dimension;
     options.threads = request_.threads;
-    options.initial = outcome_.steps.empty();
+    options.initial = reader_.windows() <= 1;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
@@ -228,34 +257,52 @@ class RunVerification : private Verification {
     return options;
   }
 
-  void verify(RunWindow& window) {
-    if (!verifier_) verifier_.emplace(reader_.mesh(), beginning_of(*window.lines), options());
+  /// False if it was stopped before anything was decided.
+  bool verify(RunWindow& window) {
+    std::optional<StepResult> result;
+    if (request_.decided) result = request_.decided->result(window.index, reader_.mesh(), window.group_hash);
+    if (!reproduce(window, result)) return false;
     if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
     outcome_.claim.to = window.end;
+    if (!result) result = decide(window);
+    if (request_.decisions != nullptr) request_.decisions->push_back(*result);
+    outcome_.complete = result->complete;
+    add_window(window, *result);
+    if (request_.open_proof && (result->complete || result->touches()) && goes_to_proof(*result)) {
+      prove(window, *result);
+    }
+    return true;
+  }
+
+  StepResult decide(const RunWindow& window) {
+    if (!verifier_) group_cells(window);
     WindowOptions deciding = options();
     deciding.progress = [this](double share) {
       const double done = static_cast<double>(outcome_.steps.size()) + share;
       tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
     };
     WindowResult result = verifier_->verify(*window.lines, deciding);
-    const bool may_go_on = meeting_at_end_ && result.contact_count() > 0;
-    meeting_at_end_ = result.contact_count() > 0;
-    const bool goes_on = may_go_on && drop_contacts_at_begin(window, result);
-    outcome_.complete = result.complete;
-    add_window(*window.lines, result, goes_on);
-    if (request_.open_proof && (result.complete || result.touches()) && !outcome_.no_proof) prove(window, result);
+    // What meets at the beginning met in the window before.
+    const bool goes_on = window.index > 0 && result.contact_count() > 0 && drop_contacts_at_begin(window, result);
+    std::optional<FirstInStep> first;
+    if (result.first) first = FirstInStep{result.first->contact, result.first->kind, result.first->lower()};
+    return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr};
   }
 
-  void add_window(const WorldLines& lines, const WindowResult& result, bool goes_on) {
-    const auto listed = [&](const FirstInWindow& first) { return listed_in_window(first, lines, outcome_.dimension); };
-    const ExactlyInWindow exactly{&lines, outcome_.dimension};
-    const auto first = result.first ? std::optional(listed(*result.first)) : std::nullopt;
-    add(result, first, goes_on, [&](const FeatureContact& contact) { return listed(exactly(contact)); });
+  void add_window(const RunWindow& window, const StepResult& result) {
+    const auto listed = [&](const FeatureContact& contact, ContactKind kind, double time) {
+      return listed_in_window(contact, kind, time, *window.lines, outcome_.dimension);
+    };
+    std::optional<ListedContact> first;
+    if (result.first) first = listed(result.first->contact, result.first->kind, result.first->time);
+    add(result, first, result.goes_on, [&](const FeatureContact& contact) {
+      const FirstInWindow found = ExactlyInWindow{&*window.lines, outcome_.dimension}(contact);
+      return listed(found.contact, found.kind, found.lower());
+    });
   }
 
-  void prove(RunWindow& window, const WindowResult& result) {
-    if (outcome_.near || (witness_sought_ && request_.trajectory_pipe != nullptr))
-      return;  // nor does the checker go on
+  void prove(RunWindow& window, const StepResult& result) {
+    if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
     const Stopwatch watch;
     give_lines(window);
     if (!proof_) {
@@ -263,13 +310,20 @@ class RunVerification : private Verification {
       proof_ = proof_of_run(request_.open_proof(outcome_.claim), reader_.scene(), outcome_.claim);
     }
     const MotionStep step{window.index, *window.lines, 0, window.group_hash};
-    if (result.touches()) {
+    if (request_.decided) {
+      if (!take_proof(*proof_, step, result, reader_.mesh())) refuse_window(window);
+    } else if (result.touches()) {
       refute(*proof_, step, result);
-    } else if (!outcome_.touches()) {
+    } else {
       search_proof(*proof_, step, *verifier_, options());
     }
     witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  [[noreturn]] void refuse_window(const RunWindow& window) const {
+    throw InputError(trajectory_path(run_).string(), fmt::format("window {}", window.index + 1),
+                     "is not what was decided; expected the same run");
   }
 
   /// Streams world lines that are in no file to the checker, window by window.
@@ -341,7 +395,6 @@ class RunVerification : private Verification {
   std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
   std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
   bool witness_sought_ = false;
-  bool meeting_at_end_ = false;
   bool ended_ = false;                 ///< all windows have been read
   double look_end_ = 0, read_to_ = 0;  ///< ends of the last window by a quick look, and of the last window read [s]
 };

@@ -304,13 +304,7 @@ class SequenceVerification : private Verification {
     if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
-    if (request_.open_proof && (result.complete || result.touches()) && goes_to_proof(result)) prove(result);
-  }
-
-  /// Not after a step of which no proof was found. Of some steps alone, whoever joins them decides that: what comes
-  /// before these steps may leave that one out.
-  bool goes_to_proof(const StepResult& result) const {
-    return !outcome_.no_proof || (request_.only && result.touches());
+    if (request_.open_proof && (result.complete || result.touches())) prove(result);
   }
 
   void begin_chain() {
@@ -357,15 +351,12 @@ class SequenceVerification : private Verification {
     const Stopwatch watch;
     begin_proof();
     if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    // Nor does a checker go on. Of some steps alone, each witness may count.
-    const bool seeks_witness = result.touches() && (request_.only || !outcome_.near);
-    const bool seeks_proof = !result.touches() && !outcome_.near && !outcome_.touches();
-    if (!seeks_witness && !seeks_proof) return;
+    if (!goes_to_proof(result)) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
     if (request_.decided) {
-      take_proof(step, result);
+      if (!take_proof(*proof_, step, result, verifier_->mesh())) refuse_frame();
     } else if (result.touches()) {
       refute(*proof_, step, result);
     } else {
@@ -392,29 +383,9 @@ class SequenceVerification : private Verification {
     proof_->write(step, *result.proof);
   }
 
-  /// What was found by whoever decided the step.
-  void take_proof(const MotionStep& step, const StepResult& result) {
-    DecidedSteps& decided = *request_.decided;
-    const bool written = copy_proof(step);
-    const auto near = result.touches() ? std::nullopt : decided.near(verifier_->mesh());
-    if (result.touches() || near) outcome_.witnesses += written ? 1 : 0;
-    if (near) {
-      outcome_.near = near;
-      outcome_.near->step = outcome_.steps.size();
-      if (outcome_.steps.size() == 1) outcome_.largest_distance = decided.largest_distance();
-    } else if (!result.touches() && !written) {
-      note_no_proof();
-    }
-  }
-
-  bool copy_proof(const MotionStep& step) {
-    try {
-      return proof_->copy(step, [this](const auto& take) { request_.decided->blocks(take); });
-    } catch (const std::invalid_argument&) {
-      throw InputError(
-          sequence_.name_t1(), "",
-          fmt::format("is not what step {} was decided for; expected the same files", sequence_.step() + 1));
-    }
+  [[noreturn]] void refuse_frame() const {
+    throw InputError(sequence_.name_t1(), "",
+                     fmt::format("is not what step {} was decided for; expected the same files", sequence_.step() + 1));
   }
 
   void conclude() {

@@ -48,6 +48,7 @@ constexpr const char* verify_footer =
     "  noli verify frames/*.ply --junit noli.xml     for continuous integration\n"
     "  noli verify runs/cloth                        a run of `noli simulate`, from its files alone\n"
     "  noli verify runs/cloth --follow               the same while it is written\n"
+    "  noli verify runs/cloth --shard 3/64 -o shards one of 64 parts; then noli merge shards\n"
     "  noli verify runs/ring --reproduce             a run that recorded frames only\n";
 
 struct VerifyArguments {
@@ -264,7 +265,7 @@ void add_run_options(CLI::App& command, VerifyRequest& request) {
   constexpr const char* runs = "Runs of noli simulate";
   command
       .add_flag("--follow", request.follow,
-                "Verify a run while it is written, each window when it is committed, to the run's end")
+                "Verify a run while it is being written, each window when it is committed, to the run's end")
       ->group(runs);
   auto* const again =
       command

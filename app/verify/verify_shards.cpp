@@ -23,18 +23,18 @@ std::string_view verdict_of(const ShardOutcome& outcome) {
 }
 
 /// "shard 3 of 64: 2 of 256 tasks done now, 1 before, ..."
-std::string place_of(const ShardWork& work, const ShardOutcome& outcome) {
+std::string place_of(const ShardWork& work, const ShardOutcome& outcome, const char* step) {
   std::string place = fmt::format("shard {} of {}: {} of {} tasks done now, {} before, {} not needed", work.number,
                                   work.of, outcome.done, outcome.tasks_total, outcome.already_done, outcome.not_needed);
-  if (outcome.first_touch) place += fmt::format("; something touches in step {}", *outcome.first_touch);
-  if (outcome.first_near) place += fmt::format("; something comes too near in step {}", *outcome.first_near);
-  if (outcome.unproved) place += "; no proof was found of some step";
+  if (outcome.first_touch) place += fmt::format("; something touches in {} {}", step, *outcome.first_touch);
+  if (outcome.first_near) place += fmt::format("; something comes too near in {} {}", step, *outcome.first_near);
+  if (outcome.unproved) place += fmt::format("; no proof was found of some {}", step);
   if (outcome.interrupted) place += "; interrupted";
   if (outcome.out_of_time) place += "; time limit";
   return place;
 }
 
-report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome) {
+report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome, const char* step_word) {
   const auto step = [](const auto& number) { return number ? fmt::format("{}", *number) : std::string("none"); };
   report::Answer answer(verdict_of(outcome), {{"shard", fmt::format("{}/{}", work.number, work.of)},
                                               {"tasks_total", outcome.tasks_total},
@@ -43,7 +43,7 @@ report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome) 
                                               {"not_needed", outcome.not_needed},
                                               {"first_touch", step(outcome.first_touch)},
                                               {"first_near", step(outcome.first_near)}});
-  answer.place = place_of(work, outcome);
+  answer.place = place_of(work, outcome, step_word);
   answer.next = outcome.complete() ? fmt::format("when all shards are done, noli merge {} gives the verdict.",
                                                  on_one_line(work.folder.string()))
                                    : "the same command does what is missing.";
@@ -85,7 +85,7 @@ ExitCode answer_shard(VerifyRequest& request, const ShardWork& work, const Outpu
   request.progress = [&](std::string_view what, double share) { bars->show(what, share, ""); };
   const ShardOutcome outcome = verify_shard(request, work);
   bars.reset();
-  output.write("verify", shard_answer(work, outcome), Json::object());
+  output.write("verify", shard_answer(work, outcome, request.step_word()), Json::object());
   return exit_code_of(outcome.first_touch || outcome.first_near, outcome.complete() && !outcome.unproved);
 }
 

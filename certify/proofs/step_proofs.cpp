@@ -56,6 +56,8 @@ bool StepProofs::copy(const MotionStep& step, const BlocksOfStep& blocks) {
   bool any = false;
   blocks([&](FourLetters kind, std::string_view payload) {
     any = true;
+    // All windows of a run have the same tree.
+    if (kind == ProofFile::tree_kind && header_.source == ProofSource::run && !tree_due_) return;
     if (kind != ProofFile::step_kind) return file_.append(kind, payload);
     const std::string own =
         file_.step_payload(step.number, ProofFile::kind_of(payload), step.lines, step.shift, step.hash);

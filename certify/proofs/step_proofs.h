@@ -50,8 +50,9 @@ class StepProofs {
   void write(const MotionStep& step, const StepProof& proof);
   void commit();
 
-  /// Copies the blocks of a step from another file, and commits them. `blocks` passes on the blocks, STEP first.
-  /// Returns false if it passes on no block. Throws std::invalid_argument when they are about another motion.
+  /// Copies the blocks of a step from another file, and commits them. Of a run, the first step alone brings its tree.
+  /// `blocks` passes on the blocks, STEP first. Returns false if it passes on no block. Throws std::invalid_argument
+  /// when they are about another motion.
   bool copy(const MotionStep& step, const BlocksOfStep& blocks);
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.

@@ -3,6 +3,7 @@
 // The steps that shards decided, read one shard at a time.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ class DecidedShards : public DecidedSteps {
  public:
   explicit DecidedShards(ShardFolder folder) : folder_(std::move(folder)) {}
 
-  StepResult result(std::uint64_t step, const Mesh& mesh) override;
+  StepResult result(std::uint64_t step, const Mesh& mesh, const std::optional<Sha256Digest>& window) override;
   void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
   std::optional<ListedNear> near(const Mesh& mesh) override;
   std::optional<LargestDistance> largest_distance() override;
@@ -29,14 +30,18 @@ class DecidedShards : public DecidedSteps {
  private:
   void open(std::uint64_t task);
   void require_inputs() const;
+  void require_window(const Sha256Digest& window) const;
   std::string file() const { return folder_.shard(task_).string(); }
   std::uint64_t first() const { return task_ * steps_of_chain; }
+  /// Times are in [0, 1] of a step between frames, and in seconds of a run.
+  double last_time() const { return is_run_ ? std::numeric_limits<double>::max() : 1; }
 
   ShardFolder folder_;
   Json claim_;
   std::vector<FrameFacts> files_;
   std::optional<ShardReader> shard_;
   std::uint64_t task_ = 0, step_ = 0;
+  bool is_run_ = false;
 };
 
 }  // namespace noli

@@ -102,6 +102,9 @@ Json request_json(const VerifyRequest& request) {
           {"polygons", request.reading.polygons == PolygonRule::fan ? "fan" : "refuse"},
           {"keys", request.reading.keys},
           {"bodies", bodies_json(request.reading.bodies)},
+          {"run", request.run},
+          {"reproduce", request.reproduce},
+          {"scene_folder", request.scene_folder ? Json(escaped(*request.scene_folder)) : Json()},
           {"ordered", request.ordered},
           {"order_notes", request.order_notes},
           {"frames", names_json(request.frames)}};
@@ -129,6 +132,9 @@ VerifyRequest request_of_json(const Json& json) {
     request.reading.bodies.push_back({unescaped(body.at("name").get<std::string>()).string(),
                                       names_of(body.at("frames")), body.at("still").get<bool>()});
   }
+  request.run = json.at("run").get<bool>();
+  request.reproduce = json.at("reproduce").get<bool>();
+  if (!json.at("scene_folder").is_null()) request.scene_folder = unescaped(json.at("scene_folder").get<std::string>());
   request.ordered = json.at("ordered").get<std::string>();
   request.order_notes = json.at("order_notes").get<std::vector<std::string>>();
   request.frames = names_of(json.at("frames"));

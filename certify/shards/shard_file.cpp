@@ -10,6 +10,7 @@
 
 #include <noli/errors.h>
 #include "certify/process/unfinished_file.h"
+#include "certify/proofs/claim.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/sha256.h"
@@ -42,6 +43,14 @@ std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
 }
 
 }  // namespace
+
+Json claim_of_parts(Claim claim) {
+  if (claim.motion == "run") {
+    claim.steps = 0;
+    claim.from = claim.to = 0;
+  }
+  return claim_json(claim);
+}
 
 void write_shard(const fs::path& file, Json head, const std::optional<fs::path>& proof) {
   const UnfinishedFile part(file);

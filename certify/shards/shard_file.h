@@ -5,7 +5,7 @@
 //
 //   file   =  TASK CMIT, then the groups of the task's steps as a proof file has them (proofs/FORMAT.md, section 2)
 //   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, touch, ends,
-//             near, unproved, largest_distance, steps, files
+//             near, unproved, largest_distance, steps, and what they were made from (shard_motion.h): files or windows
 //
 // `groups` says how many groups of steps follow, so a shard that was cut off is noticed before it is used.
 #pragma once
@@ -20,6 +20,7 @@
 
 #include <noli/errors.h>
 #include <noli/frames.h>
+#include <noli/proof.h>
 #include "certify/json.h"
 #include "trajectory/blocks/block_file.h"
 
@@ -36,6 +37,9 @@ auto reading(const std::string& file, const Read& read) {
     throw InputError(file, "", error.what());
   }
 }
+
+/// The claim as all shards of a request have it: of a run that is still written, its end is not known.
+Json claim_of_parts(Claim claim);
 
 /// Writes a shard under another name first, so that it is there as a whole or not at all. `proof`: a proof file of the
 /// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Verifies frames in parts, by processes that share nothing but a folder, and joins what they found.
+// Verifies frames or a run in parts, by processes that share nothing but a folder, and joins what they found.
 //
 //   noli::verify_shard(request, {.folder = "shards", .number = 3, .of = 64});      // in each of 64 processes
 //   noli::VerifyRequest whole = noli::request_of_shards("shards");                 // in one, when all are done
 //   whole.open_proof = noli::proof_to_file("all.noli");
-//   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again
+//   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again; of a run
+//                                                                                  // run_verify_motion(whole)
 //
 // Notation
-//   task      16 steps of the frames, the chain of proofs/prover/chain.h; tasks count from 0
+//   task      16 steps of the frames, the chain of proofs/prover/chain.h, or 16 windows of a run; tasks count from 0
 //   shard     the file of a finished task: what was found in its steps, and their proof
 //   shard K of N   the tasks K - 1, K - 1 + N, K - 1 + 2 N, ...
 //
-// The joined outcome, and the bytes of its proof, are those of one process that verifies all frames. Joining reads all
-// frames again, to say what was looked at; no step is decided twice. A process that was killed leaves the shards that
-// it had finished, and the same call then does the rest.
+// The joined outcome, and the bytes of its proof, are those of one process that verifies all. Joining reads all frames
+// or windows again, to say what was looked at; no step is decided twice. A process that was killed leaves the shards
+// that it had finished, and the same call then does the rest.
 //
 // Errors: as each function says. Thread safety: any thread; processes may work in one folder at the same time.
 #pragma once
@@ -39,7 +40,7 @@ struct ShardWork {
 };
 
 struct ShardOutcome {
-  std::uint64_t tasks_total = 0;             ///< of all frames
+  std::uint64_t tasks_total = 0;             ///< of all frames, or of the run as it was last seen
   std::uint64_t done = 0;                    ///< tasks that this call finished
   std::uint64_t already_done = 0;            ///< tasks that were finished before, of the files as they are now
   std::uint64_t not_needed = 0;              ///< tasks after a contact
@@ -56,8 +57,10 @@ struct ShardOutcome {
 std::filesystem::path usual_shard_folder(const VerifyRequest& request);
 
 /// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
-/// request has `check`, `proof`, or a least distance. Throws as run_verify(), and UsageError for what cannot be parted:
-/// runs, frames that are in no regular file, and shards of another request in the folder.
+/// request has `check`, `proof`, or a least distance. Of a run that is still written, it does the windows that are
+/// there, with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be parted: frames
+/// that are in no regular file, world lines that are in no file and are to be checked, shards of another request in the
+/// folder.
 ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,

@@ -13,9 +13,9 @@ namespace noli {
 Json step_json(const StepResult& result);
 Json near_json(const TooNear& near, bool witnessed);
 
-/// Throw Json::exception for what the functions above do not write, and std::invalid_argument for numbers that no
-/// result about this mesh has.
-StepResult step_of_json(const Json& json, const Mesh& mesh);
-ListedNear near_of_json(const Json& json, const Mesh& mesh);
+/// `last`: the greatest time that a step may have. Throw Json::exception for what the functions above do not write, and
+/// std::invalid_argument for numbers that no result about this mesh has.
+StepResult step_of_json(const Json& json, const Mesh& mesh, double last);
+ListedNear near_of_json(const Json& json, const Mesh& mesh, double last);
 
 }  // namespace noli

@@ -7,40 +7,20 @@
 
 #include <noli/errors.h>
 #include <noli/sequence.h>
-#include "certify/process/hdf5_frames.h"
 #include "certify/process/scratch_folder.h"
-#include "certify/proofs/claim.h"
 #include "certify/shards/decided_shards.h"
 #include "certify/shards/request_json.h"
+#include "certify/shards/shard_motion.h"
 #include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
 #include "proofs/prover/chain.h"
+#include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/sha256.h"
-#include "trajectory/formats/frame_sequence.h"
 
 namespace noli {
 namespace {
 
 namespace fs = std::filesystem;
-
-void require_parts(const VerifyRequest& request) {
-  if (request.run) throw UsageError("only frames can be verified in parts; expected no run");
-  if (request.trajectory)
-    throw UsageError("--trajectory: is about all frames; expected none when they are verified in parts");
-  const bool files =
-      std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
-  if (request.reading.given || !files) {
-    throw UsageError("each part reads its frames by itself; expected regular files, found something else");
-  }
-}
-
-Json files_json(const VerifyOutcome& outcome) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < outcome.inputs.size(); ++i) {
-    if (outcome.inputs[i].looked_at) list.push_back({i, hex(outcome.inputs[i].sha256)});
-  }
-  return list;
-}
 
 class ShardMaker {
  public:
@@ -48,19 +28,23 @@ class ShardMaker {
       : request_(request),
         work_(work),
         proved_(are_proved(request)),
-        frames_(open_all_frames(request.frames, request.reading)),
-        steps_(step_count()),
+        motion_(motion_of_shards(request)),
         folder_(work.folder, request_json(request)) {
-    outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain;
+    count_steps();
   }
 
   ShardOutcome operator()() {
-    while (const auto task = next_task()) {
-      if (*task > last_needed_) {
-        ++outcome_.not_needed;
-      } else if (!is_there(*task) && !make(*task)) {
-        break;
+    try {
+      while (const auto task = next_task()) {
+        if (*task > last_needed_) {
+          ++outcome_.not_needed;
+        } else if (!is_there(*task) && !make(*task)) {
+          break;
+        }
       }
+    } catch (const Stopped& stopped) {
+      outcome_.interrupted |= stopped.reason() == StopReason::interrupted;
+      outcome_.out_of_time |= stopped.reason() == StopReason::out_of_time;
     }
     return outcome_;
   }
@@ -68,15 +52,20 @@ class ShardMaker {
  private:
   std::optional<std::uint64_t> next_task() {
     const auto task = work_.next_task ? work_.next_task() : std::optional(work_.number - 1 + made_++ * work_.of);
+    if (task && *task <= last_needed_) {
+      motion_->wait_for((*task + 1) * steps_of_chain);
+      count_steps();
+    }
     return task && *task < outcome_.tasks_total ? task : std::nullopt;
   }
 
-  /// Throws InputError when there is no step.
-  std::uint64_t step_count() const {
-    const auto steps =
-        FrameSequence(*frames_, request_.constant_motion ? Motion::constant : Motion::linear).step_count();
-    if (!steps) throw UsageError("how many frames there are is known at the last one; expected files");
-    return *steps;
+  void count_steps() {
+    steps_ = motion_->step_count();
+    outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain;
+  }
+
+  StepRange range_of(std::uint64_t task) const {
+    return {task * steps_of_chain, std::min((task + 1) * steps_of_chain, steps_)};
   }
 
   /// Whether there is a whole shard of the task, made from the files as they are now.
@@ -85,8 +74,7 @@ class ShardMaker {
     try {
       const ShardReader shard(folder_.shard(task), folder_.request_hash(), task);
       return reading(shard.name(), [&] {
-        for (const Json& file : shard.head().at("files")) look_at(file.at(0).get<std::uint64_t>());
-        if (other_input(shard, frames_->facts())) return false;
+        if (!motion_->is_source_of(shard, range_of(task))) return false;
         note_end(shard.head());
         ++outcome_.already_done;
         return true;
@@ -96,15 +84,9 @@ class ShardMaker {
     }
   }
 
-  /// A file of many frames is looked at as a whole.
-  void look_at(std::uint64_t file) {
-    const auto& facts = frames_->facts();
-    if (file < facts.size() && !facts[file].looked_at) frames_->look_at(file);
-  }
-
   /// False if it was stopped: nothing is written then.
   bool make(std::uint64_t task) {
-    const StepRange range{task * steps_of_chain, std::min((task + 1) * steps_of_chain, steps_)};
+    const StepRange range = range_of(task);
     const ScratchFolder scratch;
     const fs::path proof = scratch.path() / "proof.noli";
     std::vector<StepResult> decisions;
@@ -114,11 +96,12 @@ class ShardMaker {
     part.proof.reset();
     part.open_proof = proved_ ? proof_to_file(proof) : nullptr;
     part.open_proof_at_once = false;
-    const VerifyOutcome found = run_verify(part);
+    const VerifyOutcome found = request_.run ? run_verify_motion(part) : run_verify(part);
     outcome_.interrupted |= found.interrupted;
     outcome_.out_of_time |= found.out_of_time;
     if (!outcome_.complete()) return false;
-    const Json head = head_json(task, range, decisions, found);
+    Json head = head_json(task, range, decisions, found);
+    head.update(motion_->source(found, range));
     write_shard(folder_.shard(task), head, fs::exists(proof) ? std::optional(proof) : std::nullopt);
     ++outcome_.done;
     note_end(head);
@@ -144,14 +127,13 @@ class ShardMaker {
             {"task", task},
             {"first", range.first},
             {"end", range.end},
-            {"claim", claim_json(found.claim)},
+            {"claim", claim_of_parts(found.claim)},
             {"touch", touch},
             {"ends", decisions.size() < range.end - range.first || found.near || !touch.is_null()},
             {"near", near},
             {"unproved", found.no_proof},
             {"largest_distance", largest},
-            {"steps", steps},
-            {"files", files_json(found)}};
+            {"steps", steps}};
   }
 
   /// After a contact, nothing more is asked unless the request goes on.
@@ -171,8 +153,8 @@ class ShardMaker {
   const VerifyRequest& request_;
   const ShardWork& work_;
   bool proved_;
-  std::unique_ptr<FrameSource> frames_;  ///< how many there are, and whether they are what they were
-  std::uint64_t steps_;
+  std::unique_ptr<ShardMotion> motion_;
+  std::uint64_t steps_ = 0;
   ShardFolder folder_;
   ShardOutcome outcome_;
   std::uint64_t made_ = 0;
@@ -186,15 +168,14 @@ fs::path usual_shard_folder(const VerifyRequest& request) {
   return "noli-shards-" + hash.substr(0, 12);
 }
 
-ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work) {
-  require_parts(request);
-  return ShardMaker(request, work)();
-}
+ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work) { return ShardMaker(request, work)(); }
 
 VerifyRequest request_of_shards(const fs::path& folder) {
   ShardFolder shards(folder);
   return reading((folder / "request.json").string(), [&] {
     VerifyRequest request = request_of_json(shards.request());
+    request.live = request.run && is_locked(request.frames.at(0));
+    request.prepare_to_reproduce();
     request.decided = std::make_shared<DecidedShards>(std::move(shards));
     return request;
   });

@@ -351,7 +351,8 @@ class CertifiedRun {
     outcome_.end = RunEnd::contact;
     if (result.first) {
       outcome_.first_names = names_.pair(result.first->contact.pair, result.first->contact.vertices, "meets");
-      std::array first = {&outcome_.first.emplace(listed_in_window(*result.first, *window.lines, Dim))};
+      std::array first = {&outcome_.first.emplace(
+          listed_in_window(result.first->contact, result.first->kind, result.first->lower(), *window.lines, Dim))};
       name_owners(built_.model.mesh, names_, first);
     }
     outcome_.contact = as_step(std::move(result));

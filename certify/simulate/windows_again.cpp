@@ -25,6 +25,13 @@ class Again : public WindowsAgain {
   Again(fs::path run, integrator::Model<double, Dim> model, std::function<bool()> stop)
       : run_(std::move(run)), model_(std::move(model)), stop_(std::move(stop)) {}
 
+  std::vector<Position> beginning() const override { return positions_of<Dim>(model_.x); }
+
+  void go_on_behind(const RunWindow& window, const WindowState& state) override {
+    before_ = snapshot_of<Dim>(window, state);
+    simulation_.reset();
+  }
+
   std::optional<WorldLines> next(const RunWindow& window, const WindowState& state) override {
     const std::uint64_t halvings = state.row.halvings;
     if (!simulation_ || halvings != halvings_) simulation_.emplace(simulation_at<Dim>(model_, before_, halvings));

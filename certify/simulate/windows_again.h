@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "certify/runs/run_series.h"
 #include "trajectory/blocks/run_file.h"
@@ -25,6 +26,11 @@ class WindowsAgain {
                                           const std::optional<std::filesystem::path>& files, const RunScene& scene,
                                           const std::function<bool()>& stop);
   virtual ~WindowsAgain() = default;
+
+  /// The positions of all vertices at the beginning of the run.
+  virtual std::vector<Position> beginning() const = 0;
+  /// Goes on behind this window, without integrating it. `state`: that of the window.
+  virtual void go_on_behind(const RunWindow& window, const WindowState& state) = 0;
 
   /// The world lines of the next window; nothing if `stop` returned true. `state`: that of the window. Throws
   /// InputError when their hash, or the state at their end, is not that of the run.

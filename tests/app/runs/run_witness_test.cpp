@@ -4,71 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <random>
-#include <set>
 
 #include "tests/app/runs/simulate_fixture.h"
-#include "trajectory/blocks/run_file.h"
+#include "tests/app/runs/wild_run.h"
 
 namespace noli::app_tests {
 namespace {
-
-/// Loose points, edges and faces that jump around on a coarse grid, with individual breakpoints.
-class WildRun {
- public:
-  WildRun(unsigned seed, std::uint32_t dimension) : random_(seed) {
-    scene_.header = {dimension, RecordMode::full, 1.0};
-    VertexId v = 0;
-    const auto next = [&] { return v++; };
-    for (std::size_t i = 0; i < 1 + below(2); ++i) scene_.mesh.faces.push_back({next(), next(), next()});
-    for (std::size_t i = 0; i < 1 + below(2); ++i) scene_.mesh.edges.push_back({next(), next()});
-    for (std::size_t i = 0; i < 1 + below(2); ++i) scene_.mesh.points.push_back(next());
-    scene_.mesh.vertex_count = v;
-    scene_.labels.assign(v, 0);
-  }
-
-  /// Writes windows of 1 s; each begins where the one before ends.
-  void write(const fs::path& folder, int windows) {
-    fs::create_directories(folder);
-    RunWriter writer(folder, scene_);
-    std::vector<Position> x(scene_.mesh.vertex_count);
-    for (VertexId v = 0; v < x.size(); ++v) x[v] = place(v);
-    const std::vector<Position> rest(x.size(), Position{});
-    for (int k = 0; k < windows; ++k) {
-      const WorldLines lines = wander(x, k);
-      writer.append_window({.index = static_cast<std::uint64_t>(k), .lines = lines, .velocities = rest});
-      writer.commit();
-    }
-  }
-
- private:
-  std::size_t below(std::size_t n) { return random_() % n; }
-  double coordinate() { return static_cast<double>(below(65)) / 16; }
-  /// A random position; the regions of different vertices overlap partly.
-  Position place(VertexId v) {
-    return {coordinate() + 1.0 * v, coordinate(), scene_.header.dimension == 2 ? 0 : coordinate()};
-  }
-
-  WorldLines wander(std::vector<Position>& x, int window) {
-    std::vector<std::size_t> offsets = {0};
-    std::vector<double> times;
-    std::vector<Position> positions;
-    for (VertexId v = 0; v < x.size(); ++v) {
-      std::set<double> mine = {window + 0.0, window + 1.0};
-      for (std::size_t i = below(4); i > 0; --i) mine.insert(window + static_cast<double>(below(32)) / 32);
-      for (const double t : mine) {
-        if (t > window) x[v] = place(v);
-        times.push_back(t);
-        positions.push_back(x[v]);
-      }
-      offsets.push_back(times.size());
-    }
-    return WorldLines::from_breakpoints(std::move(offsets), std::move(times), std::move(positions), "a wild run");
-  }
-
-  std::mt19937 random_;
-  RunScene scene_;
-};
 
 class RunWitness : public Simulate {
  protected:

@@ -5,6 +5,7 @@
 #include <random>
 #include <thread>
 
+#include "tests/app/runs/wild_run.h"
 #include "tests/app/shards/shards_fixture.h"
 
 namespace noli::app_tests {
@@ -37,6 +38,14 @@ TEST_F(InRanks, NothingTouches) {
   const Process all = job(4, asked_of_ranks(asked));
   EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
   expect_same_answer(whole(asked), all);
+}
+
+TEST_F(InRanks, ARunIsVerified) {
+  const std::string run = folder.path("run");
+  WildRun(2, 3, 5).write(run, 36);
+  const Process all = job(3, asked_of_ranks({run}));
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  expect_same_answer(whole({run}), all);
 }
 
 TEST_F(InRanks, SomethingTouches) {
