@@ -4,6 +4,8 @@
 // Internal to the files of a run.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +24,9 @@ concept PlainNumber = std::is_unsigned_v<T> || std::is_same_v<T, double>;
 
 template <PlainNumber T>
 void put(std::string& out, T value) {
-  if constexpr (std::is_same_v<T, double>) {
-    put(out, std::bit_cast<std::uint64_t>(value));
-  } else {
-    for (std::size_t i = 0; i < sizeof(T); ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
-  }
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+  out.append(bytes.data(), bytes.size());
 }
 
 /// Precondition: `bytes` has at least sizeof(T).
