@@ -47,6 +47,9 @@ class StopOfThread {
   const std::atomic<bool>* outer_;
 };
 
+/// What `stop` of the innermost StopOfThread of this thread is, for threads that work on its behalf; nullptr without one.
+inline const std::atomic<bool>* stop_of_thread() noexcept { return stop_detail::of_thread; }
+
 /// Whether, and why, the process or the work of this thread was asked to stop. The user comes before the time limit.
 inline std::optional<StopReason> stop_asked() noexcept {
   const std::atomic<bool>* const of_thread = stop_detail::of_thread;

@@ -91,6 +91,7 @@ struct FrameReading {
   std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
   std::vector<BodyFrames> bodies = {};            ///< joined into one mesh; empty for frames of one mesh
   std::shared_ptr<const GivenFrames> given = {};  ///< these instead of files
+  bool ahead = false;  ///< another thread reads the next file meanwhile: the positions of three frames are in memory
 
   /// For Noli itself: what reads HDF5.
   std::shared_ptr<const FrameConverter> hdf5 = {};

@@ -2,6 +2,7 @@
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/stop.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <sys/stat.h>
@@ -248,6 +249,57 @@ TEST(FrameInputs, AFileThatChangesInBetweenIsRefused) {
   inputs.look_at(0);
   folder.write("a.obj", "v 0 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_NE(input_error([&] { inputs.read(0); }).find("has changed since it was looked at"), std::string::npos);
+}
+
+/// Frames that a thread reads ahead are those that are read one after another, and nothing is told of the one that
+/// nobody asked for.
+TEST(FrameInputs, AreTheSameReadAhead) {
+  const TemporaryFolder folder;
+  Paths frames;
+  for (int k = 0; k < 6; ++k) {
+    const std::string quads = fmt::format("v 0 0 0.{0}5\nv 1 0 0\nv 1 1 0.{0}\nv 0 1 0\nf 1 2 3 4\n", k);
+    frames.push_back(folder.write(fmt::format("{}.obj", k), quads));
+  }
+  FrameInputs one(frames), ahead(frames, PolygonRule::fan, true);
+  for (FrameInputs* const inputs : {&one, &ahead}) {
+    for (std::size_t k = 0; k < frames.size(); ++k) inputs->look_at(k);
+  }
+  for (const std::size_t k : {0, 1, 3, 4, 0, 1}) {  // with a gap, then from the beginning
+    const auto expected = one.read(k), read = ahead.read(k);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->mesh, expected->mesh);
+    EXPECT_EQ(read->positions, expected->positions);
+    EXPECT_EQ(ahead.notes(), one.notes());
+  }
+  EXPECT_FALSE(ahead.read(6));
+  EXPECT_EQ(ahead.take_facts().size(), 6u);
+}
+
+TEST(FrameInputs, AFaultAheadIsToldWhenItsFrameIsRead) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("a.obj", triangle_obj), b = folder.write("b.obj", triangle_obj);
+  FrameInputs inputs({a, b}, PolygonRule::fan, true);
+  inputs.look_at(0);
+  inputs.look_at(1);
+  folder.write("b.obj", "v 0 0 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(inputs.read(0));
+  EXPECT_NE(input_error([&] { inputs.read(1); }).find("b.obj: has changed since it was looked at"), std::string::npos);
+}
+
+/// The stop of the thread that asks is also that of the one that reads ahead: here, it waits for a pipe.
+TEST(FrameInputs, HearAStopAhead) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("a.obj", triangle_obj), b = folder.write("b.obj", triangle_obj);
+  FrameInputs inputs({a, b}, PolygonRule::fan, true);
+  inputs.look_at(0);
+  inputs.look_at(1);
+  std::filesystem::remove(b);
+  ASSERT_EQ(::mkfifo(b.c_str(), 0600), 0);
+  std::atomic<bool> stop = false;
+  const StopOfThread of_thread(stop);
+  EXPECT_TRUE(inputs.read(0));
+  stop = true;
+  EXPECT_THROW(inputs.read(1), Stopped);
 }
 
 TEST(FrameInputs, PipesAreNotTouchedBeforeTheyAreRead) {

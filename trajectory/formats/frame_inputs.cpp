@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <system_error>
 #include <utility>
 
 #include <noli/errors.h>
 #include "trajectory/formats/frames.h"
+#include "trajectory/stop.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -27,8 +30,8 @@ std::string half_of(int k) { return fmt::format("5e{:+03}", k - 1); }
 
 }  // namespace
 
-FrameInputs::FrameInputs(const std::vector<fs::path>& frames, PolygonRule rule)
-    : rule_(rule), facts_(frames.size()), read_(frames.size(), false) {
+FrameInputs::FrameInputs(const std::vector<fs::path>& frames, PolygonRule rule, bool ahead)
+    : rule_(rule), reads_ahead_(ahead), facts_(frames.size()), read_(frames.size(), false) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     try {
       mesh_format(frames[k]);
@@ -84,26 +87,60 @@ bool FrameInputs::can_begin_again() const {
 
 std::optional<Frame> FrameInputs::read(std::size_t k) {
   if (k >= facts_.size()) return std::nullopt;
+  Loaded loaded = take_loaded(k);
+  note(k, loaded);
+  load_ahead(k + 1);
+  return std::move(loaded.frame);
+}
+
+FrameInputs::Loaded FrameInputs::load(std::size_t k) const {
   const std::string bytes = read_whole_file(facts_[k].file);
   if (facts_[k].looked_at && frame_hash(bytes) != facts_[k].sha256) {
     throw InputError(facts_[k].file, "",
                      "has changed since it was looked at; verify the frames again once they are complete");
   }
-  Polygons polygons{rule_};
-  Frame frame = parse_frame(bytes, facts_[k].file, &polygons);
-  take(k, bytes, frame, polygons);
-  return frame;
+  Loaded loaded{{}, {rule_}, {}};
+  loaded.frame = parse_frame(bytes, facts_[k].file, &loaded.polygons);
+  if (!facts_[k].looked_at) loaded.facts = look_at_frame(bytes, facts_[k].file).facts;
+  return loaded;
 }
 
-void FrameInputs::take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons) {
-  if (!facts_[k].looked_at) facts_[k] = look_at_frame(bytes, facts_[k].file).facts;
+/// Without a thread, if none can be started.
+void FrameInputs::load_ahead(std::size_t k) {
+  if (!reads_ahead_ || k >= facts_.size() || !facts_[k].looked_at) return;
+  const std::atomic<bool>* const stop = stop_of_thread();
+  try {
+    loaded_ahead_ = std::async(std::launch::async, [this, k, stop] {
+      std::optional<StopOfThread> stop_here;
+      if (stop != nullptr) stop_here.emplace(*stop);
+      return load(k);
+    });
+    ahead_ = k;
+  } catch (const std::system_error&) {
+    reads_ahead_ = false;
+  }
+}
+
+FrameInputs::Loaded FrameInputs::take_loaded(std::size_t k) {
+  std::future<Loaded> ahead = std::move(loaded_ahead_);
+  return ahead.valid() && ahead_ == k ? ahead.get() : load(k);
+}
+
+std::vector<FrameFacts> FrameInputs::take_facts() {
+  if (loaded_ahead_.valid()) loaded_ahead_.wait();
+  return std::move(facts_);
+}
+
+void FrameInputs::note(std::size_t k, const Loaded& loaded) {
+  const Frame& frame = loaded.frame;
+  if (loaded.facts) facts_[k] = *loaded.facts;
   // Frames that were looked at have the same cells; if not, an error follows before they are used.
   for (FrameFacts& facts : facts_) {
     if (facts.looked_at) facts.cells = frame.mesh.cell_count();
   }
   read_[k] = true;
-  polygons_ = std::max(polygons_, polygons.fans.size());
-  non_planarity_ = largest_non_planarity(frame.mesh, polygons.fans, frame.positions, non_planarity_);
+  polygons_ = std::max(polygons_, loaded.polygons.fans.size());
+  non_planarity_ = largest_non_planarity(frame.mesh, loaded.polygons.fans, frame.positions, non_planarity_);
 }
 
 std::vector<std::string> FrameInputs::notes() const {

@@ -6,7 +6,8 @@
 //   for (std::size_t k = 0; k < paths.size(); ++k) inputs.look_at(k);
 //   FrameSequence sequence(inputs, motion);
 //
-// In memory: the file of one frame, and the cells of one mesh if files spell the same cells differently.
+// In memory: the file of one frame, and the cells of one mesh if files spell the same cells differently. With `ahead`,
+// a thread reads the frame behind the one that was read last: it is in memory, too.
 //
 // look_at() opens only regular files: a look would consume the content of a pipe.
 #pragma once
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,8 +31,10 @@ namespace noli {
 
 class FrameInputs : public FrameSource {
  public:
-  /// Throws InputError for a frame whose extension is that of no format; the message ends with "(frame 11 of 12)".
-  explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan);
+  /// `ahead`: read the next frame in a thread, if it is a file that was looked at. Throws InputError for a frame whose
+  /// extension is that of no format; the message ends with "(frame 11 of 12)".
+  explicit FrameInputs(const std::vector<std::filesystem::path>& frames, PolygonRule rule = PolygonRule::fan,
+                       bool ahead = false);
 
   std::optional<std::size_t> count() const override { return facts_.size(); }
   std::string name(std::size_t k) const override { return facts_[k].file; }
@@ -46,7 +50,7 @@ class FrameInputs : public FrameSource {
 
   /// One per frame.
   const std::vector<FrameFacts>& facts() const override { return facts_; }
-  std::vector<FrameFacts> take_facts() override { return std::move(facts_); }
+  std::vector<FrameFacts> take_facts() override;
   /// How many polygons of more than three corners a frame has at most, and their largest non-planarity (polygons.h) in
   /// all frames that were read.
   std::size_t polygons() const { return polygons_; }
@@ -56,11 +60,23 @@ class FrameInputs : public FrameSource {
   std::vector<std::string> notes() const override;
 
  private:
+  /// A frame as its file has it.
+  struct Loaded {
+    Frame frame;
+    Polygons polygons;
+    std::optional<FrameFacts> facts;  ///< of a file that was not looked at
+  };
+
+  /// Changes nothing, so that another thread may do it.
+  Loaded load(std::size_t k) const;
+  void load_ahead(std::size_t k);
+  Loaded take_loaded(std::size_t k);
   void look_at(std::size_t k, std::string_view bytes);
   void require_same_cells(std::size_t k, std::string_view bytes, const FrameLook& look);
-  void take(std::size_t k, std::string_view bytes, const Frame& frame, const Polygons& polygons);
+  void note(std::size_t k, const Loaded& loaded);
 
   PolygonRule rule_;
+  bool reads_ahead_;
   std::vector<FrameFacts> facts_;
   std::optional<std::size_t> first_;             ///< the frame with which others are compared
   std::set<std::optional<std::uint64_t>> same_;  ///< spellings of its cells
@@ -68,6 +84,8 @@ class FrameInputs : public FrameSource {
   std::vector<bool> read_;                       ///< of each frame
   std::size_t polygons_ = 0;
   double non_planarity_ = 0;
+  std::size_t ahead_ = 0;             ///< the frame that is being read ahead
+  std::future<Loaded> loaded_ahead_;  ///< the last member, as its destructor waits for the thread
 };
 
 }  // namespace noli

@@ -7,7 +7,7 @@
 //              Motion::constant: frame k stands still, n steps
 //
 // What this does not do: it reads nothing ahead and keeps nothing behind, so at most the positions of two frames are in
-// memory, and what the source needs.
+// memory, and what the source needs, which may read ahead (FrameReading::ahead).
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
     return std::make_unique<ConvertedFrames>(names, reading.hdf5, reading.polygons);
   }
   if (of_arrays) return std::make_unique<ArrayFrames>(names, reading.keys);
-  return std::make_unique<FrameInputs>(names, reading.polygons);
+  return std::make_unique<FrameInputs>(names, reading.polygons, reading.ahead);
 }
 
 }  // namespace noli
