@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What was decided of the steps of a sequence, by other processes or machines, for a verification that joins it.
+// What was decided of the steps of a sequence or a run, by other processes or machines, for a verification that joins it.
 //
 // Steps count from 0, and are asked for in ascending order.
 #pragma once
@@ -12,6 +12,7 @@
 #include <noli/sequence.h>
 #include <noli/verify.h>
 #include "certify/proofs/step_proofs.h"
+#include "trajectory/blocks/run_file.h"
 
 namespace noli {
 
@@ -22,9 +23,9 @@ class DecidedSteps {
   DecidedSteps(const DecidedSteps&) = delete;
   DecidedSteps& operator=(const DecidedSteps&) = delete;
 
-  /// What was found in a step of the mesh, without its proof. `window`: of a run, the hash of its group. Throws
-  /// InputError when the step is missing, damaged, or was decided for other files or another window.
-  virtual StepResult result(std::uint64_t step, const Mesh& mesh, const std::optional<Sha256Digest>& window = {}) = 0;
+  /// What was found in a step of the mesh, without its proof. `window`: of a run, the window as it is now; of frames,
+  /// nullptr. Throws InputError when the step is missing, damaged, or was decided for other files or another window.
+  virtual StepResult result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) = 0;
   /// The blocks of the proof or witness of the step that result() gave last; none if none was found. Throws as
   /// result().
   virtual void blocks(const std::function<void(FourLetters, std::string_view)>& take) = 0;

@@ -78,7 +78,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   ++steps_;
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
   meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
-  result.goes_on = any_at_begin && meeting_at_end_ && drop_contacts_at_begin(x_t0, x_t1, none_at_begin, result);
+  result.goes_on = any_at_begin && meeting_at_end_ && drop_met_at_begin(x_t0, x_t1, none_at_begin, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   if (result.touches() && !std::ranges::equal(x_t0, x_t1)) {
     rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
@@ -107,26 +107,17 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
   return {std::move(static_cast<Findings&>(found)), first, nullptr};
 }
 
-/// Drops the pairs that meet at the beginning of a step: they met at the end of the step before, and were counted
-/// there. They are the pairs that meet when everything rests at the positions of that moment. Returns whether there are
-/// any.
-/// `none`: the steps before show that no pair meets at the beginning. If the search is stopped, all contacts then stay.
-bool SequenceVerifier::drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
-                                              StepResult& result) {
-  VerifyOptions options = step_options();
-  options.first_only = false;
-  options.max_reports = 0;
-  const VerifyResult resting = verify_between(x_t0, x_t0, options);
-  if (none && !resting.complete) return false;
-  if (resting.contact_count() > 0 && result.reports.size() == options_.max_reports) {
-    VerifyOptions more = step_options();  // the dropped ones have taken places in the list
-    more.max_reports += resting.contact_count();
-    VerifyResult again = verify_between(x_t0, x_t1, more);
-    if (again.complete) result.reports = std::move(again.reports);
-  }
-  drop_met_before(result, resting, options_.dimension, x_t0);
-  if (result.reports.size() > options_.max_reports) result.reports.resize(options_.max_reports);
-  return resting.contact_count() > 0;
+bool SequenceVerifier::drop_met_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
+                                         StepResult& result) {
+  const auto find = [&](std::span<const Position> to, std::size_t reports) -> Findings {
+    VerifyOptions options = step_options();
+    options.first_only = options.first_only && reports > 0;
+    options.max_reports = reports;
+    return verify_between(x_t0, to, options);
+  };
+  return drop_contacts_at_begin(
+      result, none, options_.dimension, x_t0, options_.max_reports, [&] { return find(x_t0, 0); },
+      [&](std::size_t most) { return find(x_t1, most); });
 }
 
 }  // namespace noli

@@ -9,10 +9,30 @@
 #include <vector>
 
 #include <noli/contact.h>
+#include <noli/errors.h>
 #include <noli/time_of_impact.h>
 #include "certify/decided_steps.h"
 
 namespace noli {
+namespace {
+
+/// Removes the pairs that meet at the beginning of a step. `resting`: the findings with all vertices at rest at x, without
+/// reports.
+void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x) {
+  found.complete = found.complete && resting.complete;
+  found.stages += resting.stages;
+  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
+    // Incomplete counts are lower bounds, and the difference must be one too.
+    const std::uint64_t before = resting.complete ? resting.contacts[i] : found.contacts[i];
+    found.contacts[i] -= std::min(found.contacts[i], before);
+  }
+  std::erase_if(found.reports, [&](const FeatureContact& contact) {
+    return !resting.complete ||
+           visit(query_of(contact, dimension, x, x), [](const auto& query) { return meet(query); });
+  });
+}
+
+}  // namespace
 
 AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
                   std::span<const Position> x_t1) {
@@ -30,18 +50,24 @@ FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query) 
   return {contact, found->kind, found->time.lower()};
 }
 
-void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x) {
-  found.complete = found.complete && resting.complete;
-  found.stages += resting.stages;
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    // Incomplete counts are lower bounds, and the difference must be one too.
-    const std::uint64_t before = resting.complete ? resting.contacts[i] : found.contacts[i];
-    found.contacts[i] -= std::min(found.contacts[i], before);
+bool drop_contacts_at_begin(Findings& found, bool none, int dimension, std::span<const Position> x, std::size_t most,
+                            const std::function<Findings()>& resting,
+                            const std::function<Findings(std::size_t)>& again) {
+  const Findings met = resting();
+  if (none && !met.complete) return false;
+  if (met.contact_count() > 0 && found.reports.size() == most) {
+    Findings more = again(most + met.contact_count());
+    if (more.complete) found.reports = std::move(more.reports);
   }
-  std::erase_if(found.reports, [&](const FeatureContact& contact) {
-    return !resting.complete ||
-           visit(query_of(contact, dimension, x, x), [](const auto& query) { return meet(query); });
-  });
+  drop_met_before(found, met, dimension, x);
+  if (found.reports.size() > most) found.reports.resize(most);
+  return met.contact_count() > 0;
+}
+
+void end_if_stopped(const VerifyRequest& request) {
+  VerifyOutcome outcome;
+  if (!outcome.stop_for(request)) return;
+  throw Stopped(outcome.interrupted ? StopReason::interrupted : StopReason::out_of_time, "");
 }
 
 void Verification::add(const Findings& found, std::optional<ListedContact> first, bool goes_on,

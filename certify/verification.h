@@ -3,6 +3,7 @@
 // Shared by the verifications of frames and of runs: adds the findings of each step, then sets the verdict.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -15,6 +16,9 @@
 
 namespace noli {
 
+class RunReader;
+struct RunScene;
+
 /// The features of a contact, moving from x_t0 to x_t1.
 AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
                   std::span<const Position> x_t1);
@@ -22,9 +26,27 @@ AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const 
 /// Kind and time of a contact that was found; `query`: its features.
 FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query);
 
-/// Removes the pairs that meet at the beginning of a step, which were counted in the step before. `resting`: the
-/// findings with all vertices at rest at x, without reports.
-void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x);
+/// Drops the pairs that meet at the beginning of a step, where vertices are at x: they met at the end of the step
+/// before, and were counted there. They are the pairs that meet when everything rests at x. Returns whether there are
+/// any.
+/// `resting()`: all findings with everything at rest, without reports. `again(n)`: those of the step, with n reports;
+/// called where the dropped ones have taken places in the list of `most`. `none`: the steps before show that no pair
+/// meets at the beginning. If the search is stopped, all contacts then stay.
+bool drop_contacts_at_begin(Findings& found, bool none, int dimension, std::span<const Position> x, std::size_t most,
+                            const std::function<Findings()>& resting,
+                            const std::function<Findings(std::size_t)>& again);
+
+/// Throws Stopped if the request is asked to stop, or its deadline has passed.
+void end_if_stopped(const VerifyRequest& request);
+
+/// What is asked about a run, without its steps and times.
+Claim claim_of_run(const VerifyRequest& request, const RunScene& scene);
+
+/// Throws UsageError for options that a run does not have, InputError when the run lacks what they need.
+void require_can_be_asked(const VerifyRequest& request, const RunReader& run);
+
+/// run_verify() for a run.
+VerifyOutcome run_verify_motion(const VerifyRequest& request);
 
 class Verification {
  protected:

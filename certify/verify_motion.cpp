@@ -21,6 +21,7 @@
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "integrator/scene/scene.h"
+#include "proofs/prover/chain.h"
 #include "proofs/prover/windows/window_features.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -51,33 +52,20 @@ class RunVerification : private Verification {
       : Verification(request),
         run_(request.frames.at(0)),
         live_(request.live),
-        log_(read_log(run_)),
+        log_(request.only ? LogFacts() : read_log(run_)),  // whoever joins the windows compares them with the log
         reader_(open_run(run_, log_)) {
-    if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore ||
-        request.only_new) {
-      throw UsageError(
-          "--static, --merge-identical, --points, --dimension, --ignore, --only-new: are for frames; expected none of "
-          "them with a run");
-    }
-    require_world_lines();
+    require_can_be_asked(request, reader_);
+    request.only ? look_at_some() : look_at_run();
     const Mesh& mesh = reader_.mesh();
-    const RunLook look = reader_.look();
-    outcome_.steps_total = look.windows;
-    look_end_ = look.end.value_or(0);
-    reader_.look_for_expected();
-    outcome_.ending = ending_of(run_, log_);
-    if (!live_) note_lost_log();
     outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
     outcome_.not_compared = not_compared(mesh, reader_.scene().labels, reader_.scene().exclusions, log_.names);
-    if (mesh.cell_count() == 0) {
-      throw InputError(request.frames[0].string(), "", "the run has no cells; expected something that can touch");
-    }
     outcome_.reproduced = request.reproduce;
-    set_claim();
+    outcome_.claim = claim_of_run(request, reader_.scene());
+    outcome_.claim.steps = outcome_.steps_total;
     if (request.decided) request.decided->set_claim(outcome_.claim);
   }
 
@@ -96,15 +84,31 @@ class RunVerification : private Verification {
   }
 
  private:
+  void look_at_run() {
+    const RunLook look = reader_.look();
+    outcome_.steps_total = look.windows;
+    look_end_ = look.end.value_or(0);
+    reader_.look_for_expected();
+    outcome_.ending = ending_of(run_, log_);
+    if (!live_) note_lost_log();
+  }
+
+  void look_at_some() {
+    outcome_.steps_total = request_.only->end - request_.only->first;
+    outcome_.ending.emplace();
+  }
+
   void verify_windows() {
-    if (request_.reproduce) make_again();
+    if (request_.reproduce && !request_.decided) make_again();
     if (request_.only && !skip_to_first()) return;
     while (outcome_.complete) {
       auto window = read_next();
       if (window) read_to_ = window->end;
       // A stop after the last window changes nothing.
       if (!window || stopped() || !verify(*window)) break;
-      if (enough() || (request_.only && window->index + 1 >= request_.only->end)) break;
+      const bool last = request_.only && window->index + 1 >= request_.only->end;
+      if (enough() || last) break;
+      if (request_.reproduce && request_.decided) before_.emplace(std::move(*window), reader_.state());
     }
   }
 
@@ -115,12 +119,13 @@ class RunVerification : private Verification {
     const std::uint64_t first = request_.only->first;
     if (first == 0) return true;
     auto before = next_committed();
+    if (before && request_.windows != nullptr) request_.windows->push_back(before->group_hash);
     if (before && !stopped()) group_cells(*before);
     if (before && first > 1) {
-      reader_.skip_to(first - 1);
+      request_.before != nullptr ? reader_.skip_to(*request_.before) : reader_.skip_to(first - 1);
       before = next_committed();
     }
-    if (before && again_) again_->go_on_behind(*before, reader_.state());
+    if (before && again_) again_->continue_after(*before, reader_.state());
     outcome_.read_seconds += watch.seconds();
     return before && !stopped();
   }
@@ -148,7 +153,7 @@ class RunVerification : private Verification {
 
   /// The next window; if the run is being written, only up to its end when it was opened.
   std::optional<RunWindow> next_of_those_there() {
-    const bool enough = live_ && reader_.windows() >= outcome_.steps_total;
+    const bool enough = !request_.only && live_ && reader_.windows() >= outcome_.steps_total;
     auto window = enough ? std::nullopt : next_committed();
     ended_ = !window;
     return window;
@@ -202,40 +207,18 @@ class RunVerification : private Verification {
     if (note && std::ranges::find(outcome_.notes, *note) == outcome_.notes.end()) outcome_.notes.push_back(*note);
   }
 
-  void set_claim() {
-    Claim& claim = outcome_.claim;
-    claim.motion = "run";
-    claim.dimension = outcome_.dimension;
-    claim.steps = outcome_.steps_total;
-    claim.strict = request_.strict;
-    claim.distance = request_.min_distance;
-    claim.ring = request_.ring;
-    set_cells_of_run(claim, reader_.scene());
-  }
-
-  void require_world_lines() const {
-    if (reader_.header().record == RecordMode::full || request_.reproduce) return;
-    throw InputError(
-        request_.frames[0].string(), "",
-        "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
-        "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
-        "simulate SCENE.json -o RUN`");
-  }
-
   /// Builds the model of the scene, to integrate its windows again.
   void make_again() {
     again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
   }
 
   /// Integrates the window again and gives it its world lines. False if it was stopped. What was decided elsewhere is
-  /// integrated only where something touches.
+  /// integrated only where a contact may be listed.
   bool reproduce(RunWindow& window, const std::optional<StepResult>& decided) {
-    if (!again_) return true;
+    if (!request_.reproduce || (decided && !decided->touches() && !decided->first)) return true;
     const Stopwatch watch;
-    if (decided && !decided->touches()) {
-      again_->go_on_behind(window, reader_.state());
-      return true;
-    }
+    if (!again_) make_again();
+    if (before_) again_->continue_after(before_->first, before_->second);
     auto lines = again_->next(window, reader_.state());
     outcome_.reproduce_seconds += watch.seconds();
     if (lines) window.lines = std::move(lines);
@@ -260,12 +243,16 @@ class RunVerification : private Verification {
   /// False if it was stopped before anything was decided.
   bool verify(RunWindow& window) {
     std::optional<StepResult> result;
-    if (request_.decided) result = request_.decided->result(window.index, reader_.mesh(), window.group_hash);
+    if (request_.decided) result = request_.decided->result(window.index, reader_.mesh(), &window);
     if (!reproduce(window, result)) return false;
     if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
     outcome_.claim.to = window.end;
     if (!result) result = decide(window);
     if (request_.decisions != nullptr) request_.decisions->push_back(*result);
+    if (request_.windows != nullptr) {
+      if (window.index == 0) request_.windows->push_back(window.group_hash);
+      request_.windows->push_back(window.group_hash);
+    }
     outcome_.complete = result->complete;
     add_window(window, *result);
     if (request_.open_proof && (result->complete || result->touches()) && goes_to_proof(*result)) {
@@ -282,8 +269,7 @@ class RunVerification : private Verification {
       tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
     };
     WindowResult result = verifier_->verify(*window.lines, deciding);
-    // What meets at the beginning met in the window before.
-    const bool goes_on = window.index > 0 && result.contact_count() > 0 && drop_contacts_at_begin(window, result);
+    const bool goes_on = drop_met_at_begin(window, result);
     std::optional<FirstInStep> first;
     if (result.first) first = FirstInStep{result.first->contact, result.first->kind, result.first->lower()};
     return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr};
@@ -340,24 +326,24 @@ class RunVerification : private Verification {
     lines_->commit();
   }
 
-  /// Drops the pairs that meet at the beginning of a window, which were counted in the window before. Returns whether
-  /// there are any.
-  bool drop_contacts_at_begin(const RunWindow& window, WindowResult& result) const {
+  /// Drops the pairs that were counted in the window before. Returns whether there are any. What that window found does
+  /// not count at the beginning of a task, which may be decided by itself.
+  bool drop_met_at_begin(const RunWindow& window, WindowResult& result) {
+    const bool any = starts_chain(window.index) ? window.index > 0 : meeting_at_end_;
+    const bool none = !outcome_.steps.empty() && !meeting_at_end_;
+    meeting_at_end_ = result.contact_count() > 0;
+    if (!any || !meeting_at_end_) return false;
     const std::vector<Position> x = beginning_of(*window.lines);
-    WindowOptions resting = options();
-    resting.first_only = false;
-    resting.max_reports = 0;
-    const WindowResult met = verifier_->verify(WorldLines::from_frames(x, x), resting);
-    const std::size_t most = options().max_reports;
-    if (met.contact_count() > 0 && result.reports.size() == most) {
-      WindowOptions more = options();  // the dropped ones have taken places in the list
-      more.max_reports += met.contact_count();
-      WindowResult again = verifier_->verify(*window.lines, more);
-      if (again.complete) result.reports = std::move(again.reports);
-    }
-    drop_met_before(result, met, outcome_.dimension, x);
-    if (result.reports.size() > most) result.reports.resize(most);
-    return met.contact_count() > 0;
+    const auto find = [&](const WorldLines& lines, std::size_t reports) -> Findings {
+      WindowOptions options = this->options();
+      options.first_only = options.first_only && reports > 0;
+      options.max_reports = reports;
+      return verifier_->verify(lines, options);
+    };
+    return drop_contacts_at_begin(
+        result, none, outcome_.dimension, x, options().max_reports,
+        [&] { return find(WorldLines::from_frames(x, x), 0); },
+        [&](std::size_t most) { return find(*window.lines, most); });
   }
 
   void conclude() {
@@ -381,9 +367,9 @@ class RunVerification : private Verification {
   /// Notes whether the run is being written, but not if it was killed meanwhile.
   void say_that_it_is_written() {
     outcome_.ending->being_written = is_locked(run_);
-    outcome_.notes.push_back(
-        fmt::format("another process writes to the run: this is about the {} windows that were committed so far{}",
-                    outcome_.steps_total, request_.follow ? "" : "; --follow waits for the others"));
+    outcome_.notes.push_back(fmt::format(
+        "another process writes to the run: this is about the {} windows that were committed so far{}",
+        outcome_.steps_total, request_.follow || request_.decided ? "" : "; --follow waits for the others"));
   }
 
   const std::filesystem::path& run_;
@@ -392,9 +378,11 @@ class RunVerification : private Verification {
   SeriesReader reader_;
   std::optional<WindowVerifier> verifier_;  ///< made from the first positions of the run
   std::unique_ptr<StepProofs> proof_;
-  std::unique_ptr<WindowsAgain> again_;  ///< with --reproduce
-  std::optional<RunWriter> lines_;       ///< of the run as if it were recorded in full
+  std::unique_ptr<WindowsAgain> again_;                      ///< with --reproduce
+  std::optional<std::pair<RunWindow, WindowState>> before_;  ///< with `decided`: the window before, as again_ needs it
+  std::optional<RunWriter> lines_;                           ///< of the run as if it were recorded in full
   bool witness_sought_ = false;
+  bool meeting_at_end_ = false;        ///< something met in the window before
   bool ended_ = false;                 ///< all windows have been read
   double look_end_ = 0, read_to_ = 0;  ///< ends of the last window by a quick look, and of the last window read [s]
 };
@@ -415,6 +403,37 @@ void VerifyRequest::prepare_to_reproduce() {
     throw UsageError(
         "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
         "\"full\", or no --proof");
+  }
+}
+
+Claim claim_of_run(const VerifyRequest& request, const RunScene& scene) {
+  Claim claim;
+  claim.motion = "run";
+  claim.dimension = static_cast<int>(scene.header.dimension);
+  claim.strict = request.strict;
+  claim.distance = request.min_distance;
+  claim.ring = request.ring;
+  set_cells_of_run(claim, scene);
+  return claim;
+}
+
+void require_can_be_asked(const VerifyRequest& request, const RunReader& run) {
+  const std::string name = request.frames.at(0).string();
+  if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore ||
+      request.only_new) {
+    throw UsageError(
+        "--static, --merge-identical, --points, --dimension, --ignore, --only-new: are for frames; expected none of "
+        "them with a run");
+  }
+  if (run.header().record == RecordMode::frames && !request.reproduce) {
+    throw InputError(
+        name, "",
+        "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
+        "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
+        "simulate SCENE.json -o RUN`");
+  }
+  if (run.mesh().cell_count() == 0) {
+    throw InputError(name, "", "the run has no cells; expected something that can touch");
   }
 }
 

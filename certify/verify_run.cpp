@@ -35,6 +35,13 @@
 namespace noli {
 namespace {
 
+/// With one thread, there is no other to read.
+FrameReading reading_of(const VerifyRequest& request) {
+  FrameReading reading = request.reading;
+  reading.ahead = request.threads != 1;
+  return reading;
+}
+
 Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
 
 /// Reports a missing frame before the work begins, not an hour later. Opens nothing: that would wait for the writer of
@@ -75,7 +82,7 @@ class SequenceVerification : private Verification {
  public:
   explicit SequenceVerification(const VerifyRequest& request)
       : Verification(request),
-        source_(open_all_frames(request.frames, request.reading)),
+        source_(open_all_frames(request.frames, reading_of(request))),
         sequence_(*source_, motion_of(request)) {
     if (!request.reading.given) require_readable(request.frames);
     if (request.merge_identical && !source_->can_begin_again()) {
@@ -300,7 +307,7 @@ class SequenceVerification : private Verification {
     if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
     give_frames();
     const StepResult result =
-        request_.decided ? request_.decided->result(sequence_.step(), verifier_->mesh()) : decide();
+        request_.decided ? request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr) : decide();
     if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
@@ -481,6 +488,8 @@ bool VerifyOutcome::stop_for(const VerifyRequest& request) {
   return interrupted || out_of_time;
 }
 
-VerifyOutcome run_verify(const VerifyRequest& request) { return SequenceVerification(request)(); }
+VerifyOutcome run_verify(const VerifyRequest& request) {
+  return request.run ? run_verify_motion(request) : SequenceVerification(request)();
+}
 
 }  // namespace noli

@@ -85,9 +85,14 @@ int noli_mpi_next(std::uint64_t* task) {
 }
 
 int noli_mpi_close_counter(void) {
-  const std::uint64_t many = std::uint64_t{1} << 62;
+  const std::uint64_t many = NOLI_MPI_CLOSED;
   std::uint64_t before = 0;
   MPI_Fetch_and_op(&many, &before, MPI_UINT64_T, 0, 0, MPI_MAX, job().window);
+  return MPI_Win_flush(0, job().window) == MPI_SUCCESS ? 0 : 2;
+}
+
+int noli_mpi_look(std::uint64_t* task) {
+  MPI_Fetch_and_op(nullptr, task, MPI_UINT64_T, 0, 0, MPI_NO_OP, job().window);
   return MPI_Win_flush(0, job().window) == MPI_SUCCESS ? 0 : 2;
 }
 

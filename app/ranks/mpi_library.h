@@ -7,8 +7,9 @@
 
 #include <cstdint>
 
-#define NOLI_MPI_VERSION 2
+#define NOLI_MPI_VERSION 3
 #define NOLI_MPI_PROGRAM_BYTES 128
+#define NOLI_MPI_CLOSED (UINT64_C(1) << 62) /* more than any task */
 
 extern "C" {
 
@@ -23,8 +24,10 @@ int32_t noli_mpi_version(void);
 int noli_mpi_begin(const char* program, struct noli_mpi_place* place);
 /* The next task that no rank has taken yet: 0, 1, ... */
 int noli_mpi_next(uint64_t* task);
-/* Closes the counter: what noli_mpi_next() gives from now on is more than any task. */
+/* Closes the counter: what noli_mpi_next() and noli_mpi_look() give from now on is at least NOLI_MPI_CLOSED. */
 int noli_mpi_close_counter(void);
+/* What noli_mpi_next() would give, without taking it. */
+int noli_mpi_look(uint64_t* task);
 /* Waits for all ranks, which call it in turn; `code` of rank 0 becomes that of all. */
 int noli_mpi_barrier(int32_t* code);
 /* Sends bytes of all ranks to rank 0, 2^31 - 1 in all at most; 4 if there are more. Rank 0 gets how many each rank has,

@@ -66,6 +66,7 @@ struct Ranks::Library {
     find(begin, "noli_mpi_begin");
     find(next, "noli_mpi_next");
     find(close_counter, "noli_mpi_close_counter");
+    find(look, "noli_mpi_look");
     find(barrier, "noli_mpi_barrier");
     find(gather, "noli_mpi_gather");
     find(serve, "noli_mpi_serve");
@@ -83,6 +84,7 @@ struct Ranks::Library {
   decltype(noli_mpi_begin)* begin = nullptr;
   decltype(noli_mpi_next)* next = nullptr;
   decltype(noli_mpi_close_counter)* close_counter = nullptr;
+  decltype(noli_mpi_look)* look = nullptr;
   decltype(noli_mpi_barrier)* barrier = nullptr;
   decltype(noli_mpi_gather)* gather = nullptr;
   decltype(noli_mpi_serve)* serve = nullptr;
@@ -118,10 +120,10 @@ std::unique_ptr<Ranks> Ranks::of_this_job() {
 
 int Ranks::threads() const { return std::max(1, hardware_threads() / on_this_machine_); }
 
-std::uint64_t Ranks::next_task() {
+std::optional<std::uint64_t> Ranks::next_task() {
   std::uint64_t task = 0;
   require(library_->next(&task));
-  return task;
+  return task < NOLI_MPI_CLOSED ? std::optional(task) : std::nullopt;
 }
 
 void Ranks::serve() {
@@ -132,6 +134,12 @@ void Ranks::serve() {
 }
 
 void Ranks::close_counter() { require(library_->close_counter()); }
+
+bool Ranks::counter_is_closed() {
+  std::uint64_t task = 0;
+  require(library_->look(&task));
+  return task >= NOLI_MPI_CLOSED;
+}
 
 std::vector<std::string> Ranks::gather(const std::string& text) {
   const std::uint64_t* sizes = nullptr;

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,15 @@ class Ranks {
   /// Of the threads of this machine, this rank's share.
   int threads() const;
 
-  /// The next task that no rank has taken.
-  std::uint64_t next_task();
+  /// The next task that no rank has taken; nothing once the counter is closed.
+  std::optional<std::uint64_t> next_task();
   /// Answers other ranks that take tasks from the counter, now and then. From any thread, while no other function is
   /// called.
   void serve();
   /// No rank gets a task from now on.
   void close_counter();
+  /// Whether a rank has closed it.
+  bool counter_is_closed();
   /// The texts of all ranks, in their order, for the first one; nothing for the others. Throws std::runtime_error when
   /// they are too long.
   std::vector<std::string> gather(const std::string& text);

@@ -43,6 +43,9 @@ ExitCode run(const MergeArguments& arguments) {
   std::vector<std::filesystem::path> inputs = request.frames;
   inputs.push_back(arguments.folder / "request.json");
   if (request.ignore) inputs.push_back(*request.ignore);
+  for (const auto& entry : std::filesystem::directory_iterator(arguments.folder)) {
+    if (entry.path().extension() == ".shard") inputs.push_back(entry.path());
+  }
   const Output output(arguments.outputs.results, inputs, files_of(request, arguments.outputs));
   return answer(request, arguments.outputs, output);
 }

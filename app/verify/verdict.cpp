@@ -59,7 +59,7 @@ std::string where(const VerifyRequest& request, std::string_view work, double sh
 VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
   const MotionFile motion(request);
   try {
-    VerifyOutcome outcome = request.run ? run_verify_motion(request) : run_verify(request);
+    VerifyOutcome outcome = run_verify(request);
     route.check(outcome);
     return outcome;
   } catch (const std::exception&) {

@@ -47,7 +47,7 @@ constexpr const char* verify_footer =
     "  noli verify a.ply b.ply --json - | jq .first\n"
     "  noli verify frames/*.ply --junit noli.xml     for continuous integration\n"
     "  noli verify runs/cloth                        a run of `noli simulate`, from its files alone\n"
-    "  noli verify runs/cloth --follow               the same while it is written\n"
+    "  noli verify runs/cloth --follow               the same while it is being written\n"
     "  noli verify runs/cloth --shard 3/64 -o shards one of 64 parts; then noli merge shards\n"
     "  noli verify runs/ring --reproduce             a run that recorded frames only\n";
 

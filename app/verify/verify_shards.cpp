@@ -54,12 +54,18 @@ report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome, 
 
 ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesystem::path>& shards, Ranks& ranks,
                          const VerdictOutputs& outputs, const Output* output) {
+  if (request.live && !request.follow) {
+    throw UsageError(
+        "another process writes to the run, so ranks may see different windows; expected --follow, or a run that has "
+        "ended");
+  }
   request.stop = &interrupted();
   const int threads = request.threads;
   if (threads == 0) request.threads = ranks.threads();
   ShardWork work{shards.value_or(usual_shard_folder(request))};
-  work.next_task = [&ranks] { return std::optional(ranks.next_task()); };
+  work.next_task = [&ranks] { return ranks.next_task(); };
   work.no_more = [&ranks] { ranks.close_counter(); };
+  work.are_needed = [&ranks] { return !ranks.counter_is_closed(); };
   request.progress = [&ranks](std::string_view /*work*/, double /*share*/) { ranks.serve(); };
   if (!verify_shard(request, work).complete()) {
     tell_note(fmt::format("rank {} was stopped; the same command does what is missing", ranks.rank()));

@@ -108,8 +108,7 @@ void ProofRoute::check(VerifyOutcome& outcome) {
   if (!verdict) return stopped(outcome);
   outcome.checked = first_line(verdict->words);
   if (verdict->code != (refuted ? 1 : 0)) {
-    throw std::runtime_error("the checker did not take the proof, which says that one of the two is wrong: " +
-                             *outcome.checked);
+    refuse("the checker did not take the proof, which says that one of the two is wrong: " + *outcome.checked);
   }
   require_claim(outcome.claim, verdict->words, refuted);
   if (frames_are_streamed()) {
@@ -134,13 +133,20 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
   return checked(request);
 }
 
+/// Of steps that others decided, what they wrote is wrong.
+void ProofRoute::refuse(const std::string& problem) const {
+  if (request_.decided == nullptr) throw std::runtime_error(problem);
+  throw InputError(request_.decided->scratch().string(), "",
+                   "the shards do not fit together: " + problem + "; make them again in a new folder");
+}
+
 /// The checker has looked at the claim that was asked, and at no other.
-void ProofRoute::require_claim(const Claim& asked, const std::string& words, bool refuted) {
+void ProofRoute::require_claim(const Claim& asked, const std::string& words, bool refuted) const {
   const char* const word = refuted ? "refuted" : "accepted";
   const auto checked = claim_of_words(words);
-  if (!checked) throw std::runtime_error(fmt::format("the checker does not say which claim it {}", word));
+  if (!checked) refuse(fmt::format("the checker does not say which claim it {}", word));
   if (const auto other = difference(asked, *checked, refuted)) {
-    throw std::runtime_error(fmt::format("the checker {} another claim: {}", word, *other));
+    refuse(fmt::format("the checker {} another claim: {}", word, *other));
   }
 }
 

@@ -31,11 +31,12 @@ class ProofRoute {
   explicit ProofRoute(VerifyRequest& request);
 
   /// Has the checker say what it thinks of a proof that is complete. What it refuses is an error of this program:
-  /// throws std::runtime_error.
+  /// throws std::runtime_error; or of the shards that were joined: throws InputError.
   void check(VerifyOutcome& outcome);
 
  private:
-  static void require_claim(const Claim& asked, const std::string& words, bool refuted);
+  [[noreturn]] void refuse(const std::string& problem) const;
+  void require_claim(const Claim& asked, const std::string& words, bool refuted) const;
   bool frames_are_streamed() const;
   bool can_be_read_again() const;
   std::vector<std::filesystem::path> trajectory() const;

@@ -24,6 +24,11 @@ void SeriesReader::skip_to(std::uint64_t window) {
   RunReader::skip_to(window);
 }
 
+void SeriesReader::skip_to(const CommitPoint& commit) {
+  state_.reset();
+  RunReader::skip_to(commit);
+}
+
 void SeriesReader::take_row(const RunWindow& window) {
   const std::optional<WindowState> before = std::exchange(state_, std::nullopt);
   why_none_ = not_a_row(window.state);

@@ -13,28 +13,29 @@ constexpr const char* remedy = "run `noli verify --shard` again: it does what is
 
 }  // namespace
 
-StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const std::optional<Sha256Digest>& window) {
-  is_run_ = window.has_value();
+StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) {
   if (!shard_ || step / steps_of_chain != task_ || step <= step_) open(step / steps_of_chain);
   step_ = step;
   return reading(file(), [&] {
     const Json& steps = shard_->head().at("steps");
-    if (window && step - first() < steps.size()) require_window(*window);
-    if (step - first() < steps.size()) return step_of_json(steps.at(step - first()), mesh, last_time());
-    throw InputError(file(), "", fmt::format("ends before step {}; remove it, and {}", step + 1, remedy));
+    if (step - first() >= steps.size()) {
+      throw InputError(file(), "", fmt::format("ends before {} {}; {}", step_word(), step + 1, remedy));
+    }
+    if (window != nullptr) require_window(*window);
+    times_ = window == nullptr ? StepTimes{} : StepTimes{window->begin, window->end};
+    return step_of_json(steps.at(step - first()), mesh, times_);
   });
 }
 
 void DecidedShards::open(std::uint64_t task) {
   if (!folder_.has(task)) {
-    throw InputError(
-        folder_.path().string(), "",
-        fmt::format("{} is missing ({} {} to {}); {}", folder_.shard(task).filename().string(),
-                    is_run_ ? "windows" : "steps", task * steps_of_chain + 1, (task + 1) * steps_of_chain, remedy));
+    throw InputError(folder_.path().string(), "",
+                     fmt::format("{} is missing ({}s {} to {}); {}", folder_.shard(task).filename().string(),
+                                 step_word(), task * steps_of_chain + 1, (task + 1) * steps_of_chain, remedy));
   }
   task_ = task;
   shard_.emplace(folder_.shard(task), folder_.request_hash(), task);
-  if (!is_run_) require_inputs();
+  if (!of_run_) require_inputs();
   if (shard_->head().value("claim", Json()) != claim_) {
     throw InputError(file(), "", std::string("was made for another claim; remove it, and ") + remedy);
   }
@@ -48,11 +49,14 @@ void DecidedShards::require_inputs() const {
   }
 }
 
-void DecidedShards::require_window(const Sha256Digest& window) const {
-  const Json& known = shard_->head().at("windows").at(step_ - first());
-  if (known.get<std::string>() == hex(window)) return;
-  throw InputError(file(), "",
-                   fmt::format("was made from another window {}: its hash is another one; {}", step_ + 1, remedy));
+void DecidedShards::require_window(const RunWindow& window) {
+  if (step_ == 0) first_window_ = hex(window.group_hash);
+  const Json& known = shard_->head().at("windows");
+  const bool same = known.at(1 + step_ - first()) == hex(window.group_hash);
+  if (same && known.at(0) == first_window_) return;
+  throw InputError(
+      file(), "",
+      fmt::format("was made when window {} had another hash than it has now; {}", same ? 1 : step_ + 1, remedy));
 }
 
 void DecidedShards::blocks(const std::function<void(FourLetters, std::string_view)>& take) {
@@ -63,7 +67,7 @@ std::optional<ListedNear> DecidedShards::near(const Mesh& mesh) {
   return reading(file(), [&]() -> std::optional<ListedNear> {
     const Json& near = shard_->head().at("near");
     if (near.is_null() || near.at("step") != step_) return std::nullopt;
-    return near_of_json(near, mesh, last_time());
+    return near_of_json(near, mesh);
   });
 }
 
@@ -77,6 +81,6 @@ std::optional<LargestDistance> DecidedShards::largest_distance() {
 
 void DecidedShards::set_inputs(const std::vector<FrameFacts>& files) { files_ = files; }
 
-void DecidedShards::set_claim(const Claim& claim) { claim_ = claim_of_parts(claim); }
+void DecidedShards::set_claim(const Claim& claim) { claim_ = shared_claim_json(claim); }
 
 }  // namespace noli

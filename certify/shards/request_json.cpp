@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include <noli/version.h>
+#include "trajectory/blocks/run_manifest.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/input_file.h"
 
@@ -77,6 +78,13 @@ Json ignore_json(const VerifyRequest& request) {
   return {{"file", escaped(*request.ignore)}, {"sha256", hex(sha256(InputFile(*request.ignore).read_to_end()))}};
 }
 
+/// From which scene the windows are integrated again.
+Json reproduce_json(const VerifyRequest& request) {
+  if (!request.reproduce) return nullptr;
+  const fs::path& run = request.frames.at(0);
+  return {{"manifest", hex(manifest_hash(run))}, {"scene", hex(sha256(read_scene(run, read_manifest(run))))}};
+}
+
 }  // namespace
 
 bool are_proved(const VerifyRequest& request) { return request.check || request.needs_proof(); }
@@ -103,7 +111,7 @@ Json request_json(const VerifyRequest& request) {
           {"keys", request.reading.keys},
           {"bodies", bodies_json(request.reading.bodies)},
           {"run", request.run},
-          {"reproduce", request.reproduce},
+          {"reproduce", reproduce_json(request)},
           {"scene_folder", request.scene_folder ? Json(escaped(*request.scene_folder)) : Json()},
           {"ordered", request.ordered},
           {"order_notes", request.order_notes},
@@ -133,7 +141,7 @@ VerifyRequest request_of_json(const Json& json) {
                                       names_of(body.at("frames")), body.at("still").get<bool>()});
   }
   request.run = json.at("run").get<bool>();
-  request.reproduce = json.at("reproduce").get<bool>();
+  request.reproduce = !json.at("reproduce").is_null();
   if (!json.at("scene_folder").is_null()) request.scene_folder = unescaped(json.at("scene_folder").get<std::string>());
   request.ordered = json.at("ordered").get<std::string>();
   request.order_notes = json.at("order_notes").get<std::vector<std::string>>();

@@ -44,7 +44,7 @@ std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
 
 }  // namespace
 
-Json claim_of_parts(Claim claim) {
+Json shared_claim_json(Claim claim) {
   if (claim.motion == "run") {
     claim.steps = 0;
     claim.from = claim.to = 0;

@@ -38,8 +38,8 @@ auto reading(const std::string& file, const Read& read) {
   }
 }
 
-/// The claim as all shards of a request have it: of a run that is still written, its end is not known.
-Json claim_of_parts(Claim claim);
+/// The claim as all shards of a request have it: how far a run goes is left out, as it may be being written.
+Json shared_claim_json(Claim claim);
 
 /// Writes a shard under another name first, so that it is there as a whole or not at all. `proof`: a proof file of the
 /// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.

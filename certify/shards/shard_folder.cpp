@@ -46,6 +46,18 @@ void make(const fs::path& folder) {
   }
 }
 
+void require_regular(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw InputError(file.string(), "", "is no regular file; expected one that `noli verify --shard` wrote");
+  }
+}
+
+std::string read_request(const fs::path& file) {
+  require_regular(file);
+  return InputFile(file).read_to_end();
+}
+
 /// Writes the file, unless another process has done so meanwhile.
 void publish(const std::string& text, const fs::path& file) {
   const UnfinishedFile part(file);
@@ -70,7 +82,7 @@ ShardFolder::ShardFolder(fs::path folder, const Json& request) : folder_(std::mo
   make(folder_);
   const std::string text = to_text(request);
   if (!fs::exists(request_file())) publish(text, request_file());
-  const std::string there = InputFile(request_file()).read_to_end();
+  const std::string there = read_request(request_file());
   if (there != text) {
     const Json other = parse_request(there, request_file().string());
     throw UsageError(
@@ -84,13 +96,16 @@ ShardFolder::ShardFolder(fs::path folder) : folder_(std::move(folder)) {
   if (!fs::exists(request_file())) {
     throw InputError(folder_.string(), "", "has no request.json; expected the folder that `noli verify --shard` wrote");
   }
-  const std::string text = InputFile(request_file()).read_to_end();
+  const std::string text = read_request(request_file());
   request_ = parse_request(text, request_file().string());
   request_hash_ = hex(sha256(text));
 }
 
 fs::path ShardFolder::shard(std::uint64_t task) const { return folder_ / fmt::format("task_{:06}.shard", task + 1); }
 
-bool ShardFolder::has(std::uint64_t task) const { return fs::exists(shard(task)); }
+bool ShardFolder::has(std::uint64_t task) const {
+  require_regular(shard(task));
+  return fs::exists(shard(task));
+}
 
 }  // namespace noli

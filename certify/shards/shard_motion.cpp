@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <thread>
 
 #include <noli/errors.h>
 #include "certify/process/hdf5_frames.h"
 #include "certify/shards/request_json.h"
+#include "certify/simulate/windows_again.h"
+#include "certify/verification.h"
+#include "proofs/prover/chain.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
+#include "trajectory/blocks/sha256.h"
 #include "trajectory/formats/frame_sequence.h"
 
 namespace noli {
@@ -45,14 +50,6 @@ class Frames : public ShardMotion {
     return !other_input(shard, frames_->facts());
   }
 
-  Json source(const VerifyOutcome& outcome, const StepRange& /*range*/) override {
-    Json files = Json::array();
-    for (std::size_t i = 0; i < outcome.inputs.size(); ++i) {
-      if (outcome.inputs[i].looked_at) files.push_back({i, hex(outcome.inputs[i].sha256)});
-    }
-    return {{"files", files}};
-  }
-
  private:
   /// A file of many frames is looked at as a whole.
   void look_at(std::uint64_t file) {
@@ -66,47 +63,72 @@ class Frames : public ShardMotion {
 
 class Windows : public ShardMotion {
  public:
-  explicit Windows(const VerifyRequest& request) : request_(request), run_(request.frames.at(0)) {}
+  explicit Windows(const VerifyRequest& request) : request_(request), run_(request.frames.at(0)), counted_(run_) {
+    require_can_be_asked(request, counted_);
+    if (request.reproduce) WindowsAgain::of(run_, request.scene_folder, counted_.scene(), {});  // are its files there?
+    claim_ = shared_claim_json(claim_of_run(request, counted_.scene()));
+  }
 
-  std::uint64_t step_count() override { return RunReader(run_).look().windows; }
+  std::uint64_t step_count() override {
+    is_missing(0);
+    if (counted_.windows() == 0 && !request_.follow) {
+      throw InputError(run_.string(), "", "has no window yet; expected one at least, or --follow");
+    }
+    return counted_.windows();
+  }
 
-  void wait_for(std::uint64_t count) override {
+  void wait_for(std::uint64_t count, const std::function<bool()>& needed) override {
     constexpr auto pause = std::chrono::milliseconds(50);
-    while (request_.follow) {
-      const bool written = is_locked(run_);  // before the look, so that the last windows are seen
-      if (step_count() >= count || !written) return;
-      VerifyOutcome asked;
-      if (asked.stop_for(request_))
-        throw Stopped(asked.interrupted ? StopReason::interrupted : StopReason::out_of_time, "");
+    while (request_.follow && is_missing(count) && needed()) {
+      end_if_stopped(request_);
       if (request_.progress) request_.progress("wait", 0);
       std::this_thread::sleep_for(pause);
     }
   }
 
   bool is_source_of(const ShardReader& shard, const StepRange& range) override {
-    const Json& known = shard.head().at("windows");
-    const auto end = shard.head().at("end").get<std::uint64_t>();
-    return end == range.end && known == hashes({range.first, range.first + known.size()});
+    const Json &known = shard.head().at("windows"), &claim = shard.head().at("claim");
+    if (shard.head().at("end") != range.end || known.size() < 2 || claim != claim_) return false;
+    RunReader reader(run_);
+    const auto is_next = [&reader](const Json& hash) {
+      return reader.skip_window() && hash == hex(reader.committed().group);
+    };
+    if (!is_next(known[0])) return false;
+    if (range.first == 0) return known[0] == known[1] && std::all_of(known.begin() + 2, known.end(), is_next);
+    reader.skip_to(*before(range));
+    reader.skip_to(range.first);
+    return std::all_of(known.begin() + 1, known.end(), is_next);
   }
 
-  Json source(const VerifyOutcome& outcome, const StepRange& range) override {
-    return {{"windows", hashes({range.first, range.first + outcome.steps.size()})}};
+  const CommitPoint* before(const StepRange& range) override {
+    const std::uint64_t task = range.first / steps_of_chain;
+    return task == 0 ? nullptr : &tasks_.at(task - 1);
   }
 
  private:
-  Json hashes(const StepRange& range) {
-    Json list = Json::array();
-    RunReader reader(run_);
-    reader.skip_to(range.first);
-    for (std::uint64_t window = range.first; window < range.end; ++window) {
-      reader.skip_to(window + 1);
-      list.push_back(hex(reader.group_hash()));
+  /// Whether there are fewer windows, and more may come.
+  bool is_missing(std::uint64_t windows) {
+    const bool is_written = is_locked(run_);  // asked before the look, so that the last windows are seen
+    try {
+      count();
+    } catch (const InputError&) {  // a window that is not committed may be taken back while it is looked at
+      if (!is_written) throw;
     }
-    return list;
+    return is_written && counted_.windows() < windows;
+  }
+
+  void count() {
+    counted_.look_again();
+    while (counted_.skip_window()) {
+      if (counted_.windows() % steps_of_chain == steps_of_chain - 1) tasks_.push_back(counted_.committed());
+    }
   }
 
   const VerifyRequest& request_;
   fs::path run_;
+  RunReader counted_;  ///< behind the last window that was there
+  Json claim_;
+  std::deque<CommitPoint> tasks_;  ///< of each task but the first: behind the last window but one before it
 };
 
 }  // namespace
@@ -118,8 +140,8 @@ std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request) {
   }
   if (request.lines_in_no_file && are_proved(request)) {
     throw UsageError(
-        "--reproduce: the run recorded frames alone, so no file has the world lines that a checker would read when the "
-        "parts are joined; expected --no-check, and no least distance");
+        "--reproduce: the run recorded only frames, so no file has the world lines that a checker would read when the "
+        "parts are joined; expected --no-check, without --proof and --min-distance");
   }
   return std::make_unique<Windows>(request);
 }

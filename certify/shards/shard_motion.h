@@ -3,16 +3,16 @@
 // The motion whose steps are decided in shards: frames in files, or a run.
 //
 // Notation
-//   source   what the steps of a task were made from, as members of the shard's head: for frames `files`, each with its
-//            SHA-256; for a run `windows`, the hashes of their groups in trajectory.blocks, one after another
+//   source   what the steps of a task were made from, as members of the shard's head: `files`, those of frames with
+//            their SHA-256; `windows`, the hashes of the windows' groups in trajectory.blocks: of the first one of the
+//            run, which says how cells are grouped, then of those of the task
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 
 #include <noli/verify.h>
-#include "certify/json.h"
 #include "certify/shards/shard_file.h"
 
 namespace noli {
@@ -24,17 +24,18 @@ class ShardMotion {
   ShardMotion(const ShardMotion&) = delete;
   ShardMotion& operator=(const ShardMotion&) = delete;
 
-  /// Throws InputError when there is none.
+  /// How many steps there are now. Throws InputError when there is none, and will be none.
   virtual std::uint64_t step_count() = 0;
-  /// Waits until the motion has at least `count` steps, or gets no more: a run may still be written. Throws Stopped.
-  virtual void wait_for(std::uint64_t /*count*/) {}
+  /// Waits until the motion has at least `count` steps, or gets no more: a run may still be being written. Ends early if
+  /// `needed` returns false. Throws Stopped.
+  virtual void wait_for(std::uint64_t /*count*/, const std::function<bool()>& /*needed*/) {}
   /// Whether a whole shard was made from these steps as they are now. Throws InputError, Stopped.
   virtual bool is_source_of(const ShardReader& shard, const StepRange& range) = 0;
-  /// The source of these steps, which were verified.
-  virtual Json source(const VerifyOutcome& outcome, const StepRange& range) = 0;
+  /// For VerifyRequest::before.
+  virtual const CommitPoint* before(const StepRange& /*range*/) { return nullptr; }
 };
 
-/// Throws UsageError for what cannot be parted: frames in no regular file, lines that no checker can read. Waits for
+/// Throws UsageError for what cannot be cut into parts: frames in no regular file, world lines in no file. Waits for
 /// windows that are still to come if `request.follow`. `request` must outlive it.
 std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request);
 

@@ -5,8 +5,7 @@
 //   noli::verify_shard(request, {.folder = "shards", .number = 3, .of = 64});      // in each of 64 processes
 //   noli::VerifyRequest whole = noli::request_of_shards("shards");                 // in one, when all are done
 //   whole.open_proof = noli::proof_to_file("all.noli");
-//   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again; of a run
-//                                                                                  // run_verify_motion(whole)
+//   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again
 //
 // Notation
 //   task      16 steps of the frames, the chain of proofs/prover/chain.h, or 16 windows of a run; tasks count from 0
@@ -37,6 +36,8 @@ struct ShardWork {
   std::function<std::optional<std::uint64_t>()> next_task = {};
   /// Called when no task after those that were given is needed: something touches.
   std::function<void()> no_more = {};
+  /// Whether tasks are still needed whose windows are not there yet; another process may know.
+  std::function<bool()> are_needed = {};
 };
 
 struct ShardOutcome {
@@ -57,15 +58,16 @@ struct ShardOutcome {
 std::filesystem::path usual_shard_folder(const VerifyRequest& request);
 
 /// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
-/// request has `check`, `proof`, or a least distance. Of a run that is still written, it does the windows that are
-/// there, with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be parted: frames
+/// request has `check`, `proof`, or a least distance. Of a run that is being written, it does the windows that are there,
+/// with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be cut into parts: frames
 /// that are in no regular file, world lines that are in no file and are to be checked, shards of another request in the
 /// folder.
 ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,
-/// damaged, or was made from other files. Whether and how a proof is written, threads and limits are for the caller to
-/// set. One run_verify() at a time. Throws InputError when the folder has no shards of this version.
+/// damaged, or was made from other files or windows. Whether and how a proof is written, threads and limits are for the caller to
+/// set. One run_verify() at a time. Throws InputError when the folder has no shards of this version, or the run is not
+/// there.
 VerifyRequest request_of_shards(const std::filesystem::path& folder);
 
 }  // namespace noli

@@ -39,9 +39,9 @@ std::array<std::uint64_t, Size> counts_of(const Json& json) {
   return counts;
 }
 
-double time_of(const Json& json, double last) {
+double time_of(const Json& json, StepTimes times) {
   const auto time = json.get<double>();
-  if (!(time >= 0 && time <= last)) throw std::invalid_argument("a time that is not in the step");
+  if (!(time >= times.begin && time <= times.end)) throw std::invalid_argument("a time that is not in the step");
   return time;
 }
 
@@ -51,13 +51,13 @@ Json contact_as_json(const FeatureContact& contact) {
   return {name(contact.pair), contact.vertices, contact.first.begin, contact.first.end};
 }
 
-FeatureContact contact_of(const Json& json, const Mesh& mesh, double last) {
+FeatureContact contact_of(const Json& json, const Mesh& mesh, StepTimes times) {
   FeatureContact contact;
   contact.pair = named<FeaturePair>(json.at(0), all_feature_pairs);
   for (std::size_t i = 0; i < contact.vertices.size(); ++i) {
     contact.vertices[i] = whole<VertexId>(json.at(1).at(i), mesh.vertex_count);
   }
-  contact.first = {time_of(json.at(2), last), time_of(json.at(3), last)};
+  contact.first = {time_of(json.at(2), times), time_of(json.at(3), times)};
   return contact;
 }
 
@@ -65,9 +65,9 @@ Json first_as_json(const FirstInStep& first) {
   return {{"contact", contact_as_json(first.contact)}, {"kind", name(first.kind)}, {"time", first.time}};
 }
 
-FirstInStep first_of(const Json& json, const Mesh& mesh, double last) {
-  return {contact_of(json.at("contact"), mesh, last), named<ContactKind>(json.at("kind"), contact_kinds),
-          time_of(json.at("time"), last)};
+FirstInStep first_of(const Json& json, const Mesh& mesh, StepTimes times) {
+  return {contact_of(json.at("contact"), mesh, times), named<ContactKind>(json.at("kind"), contact_kinds),
+          time_of(json.at("time"), times)};
 }
 
 }  // namespace
@@ -88,20 +88,23 @@ Json step_json(const StepResult& result) {
           {"goes_on", result.goes_on}};
 }
 
-StepResult step_of_json(const Json& json, const Mesh& mesh, double last) {
+StepResult step_of_json(const Json& json, const Mesh& mesh, StepTimes times) {
   StepResult result;
   result.complete = json.at("complete").get<bool>();
   result.contacts = counts_of<std::tuple_size_v<ContactCounts>>(json.at("contacts"));
   result.initial_intersections = whole(json.at("initial_intersections"));
-  for (const Json& contact : json.at("reports")) result.reports.push_back(contact_of(contact, mesh, last));
+  for (const Json& contact : json.at("reports")) result.reports.push_back(contact_of(contact, mesh, times));
   for (const Json& pair : json.at("initial_reports")) {
     result.initial_reports.push_back({cell_of(pair.at(0), mesh), cell_of(pair.at(1), mesh)});
   }
   result.stages.decided = counts_of<std::tuple_size_v<decltype(result.stages.decided)>>(json.at("stages"));
   result.obligations = whole(json.at("obligations"));
   result.cell_pairs = whole(json.at("cell_pairs"));
-  if (!json.at("first").is_null()) result.first = first_of(json.at("first"), mesh, last);
+  if (!json.at("first").is_null()) result.first = first_of(json.at("first"), mesh, times);
   result.goes_on = json.at("goes_on").get<bool>();
+  if (result.reports.size() > result.contact_count() || result.initial_reports.size() > result.initial_intersections) {
+    throw std::invalid_argument("more contacts are listed than there are");
+  }
   return result;
 }
 
@@ -109,9 +112,9 @@ Json near_json(const TooNear& near, bool witnessed) {
   return {{"cells", {near.first_cell, near.second_cell}}, {"time", near.time}, {"witnessed", witnessed}};
 }
 
-ListedNear near_of_json(const Json& json, const Mesh& mesh, double last) {
+ListedNear near_of_json(const Json& json, const Mesh& mesh) {
   const Json& cells = json.at("cells");
-  const TooNear pair{cell_of(cells.at(0), mesh), cell_of(cells.at(1), mesh), time_of(json.at("time"), last)};
+  const TooNear pair{cell_of(cells.at(0), mesh), cell_of(cells.at(1), mesh), time_of(json.at("time"), {})};
   return {0, pair, json.at("witnessed").get<bool>()};
 }
 

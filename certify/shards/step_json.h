@@ -9,13 +9,18 @@
 
 namespace noli {
 
+/// When a step begins and ends: of a run in seconds.
+struct StepTimes {
+  double begin = 0, end = 1;
+};
+
 /// Without the proof.
 Json step_json(const StepResult& result);
 Json near_json(const TooNear& near, bool witnessed);
 
-/// `last`: the greatest time that a step may have. Throw Json::exception for what the functions above do not write, and
-/// std::invalid_argument for numbers that no result about this mesh has.
-StepResult step_of_json(const Json& json, const Mesh& mesh, double last);
-ListedNear near_of_json(const Json& json, const Mesh& mesh, double last);
+/// Throw Json::exception for what the functions above do not write, and std::invalid_argument for numbers that no
+/// result about this mesh and these times has.
+StepResult step_of_json(const Json& json, const Mesh& mesh, StepTimes times);
+ListedNear near_of_json(const Json& json, const Mesh& mesh);
 
 }  // namespace noli

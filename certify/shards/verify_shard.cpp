@@ -13,6 +13,7 @@
 #include "certify/shards/shard_motion.h"
 #include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
+#include "certify/verification.h"
 #include "proofs/prover/chain.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/sha256.h"
@@ -29,8 +30,9 @@ class ShardMaker {
         work_(work),
         proved_(are_proved(request)),
         motion_(motion_of_shards(request)),
+        steps_(motion_->step_count()),
         folder_(work.folder, request_json(request)) {
-    count_steps();
+    count_tasks();
   }
 
   ShardOutcome operator()() {
@@ -51,18 +53,20 @@ class ShardMaker {
 
  private:
   std::optional<std::uint64_t> next_task() {
+    end_if_stopped(request_);
     const auto task = work_.next_task ? work_.next_task() : std::optional(work_.number - 1 + made_++ * work_.of);
-    if (task && *task <= last_needed_) {
-      motion_->wait_for((*task + 1) * steps_of_chain);
-      count_steps();
-    }
+    if (task && request_.follow && *task <= last_needed_) wait_for(*task);
     return task && *task < outcome_.tasks_total ? task : std::nullopt;
   }
 
-  void count_steps() {
+  /// Until the task is complete, or as complete as it gets.
+  void wait_for(std::uint64_t task) {
+    motion_->wait_for((task + 1) * steps_of_chain, [this] { return !work_.are_needed || work_.are_needed(); });
     steps_ = motion_->step_count();
-    outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain;
+    count_tasks();
   }
+
+  void count_tasks() { outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain; }
 
   StepRange range_of(std::uint64_t task) const {
     return {task * steps_of_chain, std::min((task + 1) * steps_of_chain, steps_)};
@@ -90,22 +94,48 @@ class ShardMaker {
     const ScratchFolder scratch;
     const fs::path proof = scratch.path() / "proof.noli";
     std::vector<StepResult> decisions;
+    std::vector<Sha256Digest> windows;
     VerifyRequest part = request_;
     part.only = range;
     part.decisions = &decisions;
+    part.windows = &windows;
+    part.before = motion_->before(range);
+    part.progress = [&](std::string_view work, double share) { tell(work, share, range); };
     part.proof.reset();
     part.open_proof = proved_ ? proof_to_file(proof) : nullptr;
     part.open_proof_at_once = false;
-    const VerifyOutcome found = request_.run ? run_verify_motion(part) : run_verify(part);
+    const VerifyOutcome found = run_verify(part);
     outcome_.interrupted |= found.interrupted;
     outcome_.out_of_time |= found.out_of_time;
     if (!outcome_.complete()) return false;
     Json head = head_json(task, range, decisions, found);
-    head.update(motion_->source(found, range));
+    head[request_.run ? "windows" : "files"] = request_.run ? windows_json(windows) : files_json(found);
     write_shard(folder_.shard(task), head, fs::exists(proof) ? std::optional(proof) : std::nullopt);
     ++outcome_.done;
     note_end(head);
     return true;
+  }
+
+  /// Frames tell where they are in the whole sequence.
+  void tell(std::string_view work, double share, const StepRange& range) const {
+    if (!request_.progress) return;
+    const auto length = static_cast<double>(range.end - range.first);
+    const double done = static_cast<double>(range.first) + share * length;
+    request_.progress(work, request_.run ? done / static_cast<double>(steps_) : share);
+  }
+
+  static Json files_json(const VerifyOutcome& outcome) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < outcome.inputs.size(); ++i) {
+      if (outcome.inputs[i].looked_at) list.push_back({i, hex(outcome.inputs[i].sha256)});
+    }
+    return list;
+  }
+
+  static Json windows_json(const std::vector<Sha256Digest>& windows) {
+    Json list = Json::array();
+    for (const Sha256Digest& hash : windows) list.push_back(hex(hash));
+    return list;
   }
 
   Json head_json(std::uint64_t task, const StepRange& range, const std::vector<StepResult>& decisions,
@@ -127,7 +157,7 @@ class ShardMaker {
             {"task", task},
             {"first", range.first},
             {"end", range.end},
-            {"claim", claim_of_parts(found.claim)},
+            {"claim", shared_claim_json(found.claim)},
             {"touch", touch},
             {"ends", decisions.size() < range.end - range.first || found.near || !touch.is_null()},
             {"near", near},
@@ -154,7 +184,7 @@ class ShardMaker {
   const ShardWork& work_;
   bool proved_;
   std::unique_ptr<ShardMotion> motion_;
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_;
   ShardFolder folder_;
   ShardOutcome outcome_;
   std::uint64_t made_ = 0;
@@ -174,9 +204,15 @@ VerifyRequest request_of_shards(const fs::path& folder) {
   ShardFolder shards(folder);
   return reading((folder / "request.json").string(), [&] {
     VerifyRequest request = request_of_json(shards.request());
+    const Json now = request_json(request);
+    for (const char* const member : {"ignore", "reproduce"}) {  // whose files have to be the same
+      if (now.at(member) == shards.request().at(member)) continue;
+      throw InputError((folder / "request.json").string(), std::string("/") + member,
+                       "is about files that have changed; expected the same ones, or a new folder");
+    }
     request.live = request.run && is_locked(request.frames.at(0));
     request.prepare_to_reproduce();
-    request.decided = std::make_shared<DecidedShards>(std::move(shards));
+    request.decided = std::make_shared<DecidedShards>(std::move(shards), request.run);
     return request;
   });
 }

@@ -27,7 +27,7 @@ class Again : public WindowsAgain {
 
   std::vector<Position> beginning() const override { return positions_of<Dim>(model_.x); }
 
-  void go_on_behind(const RunWindow& window, const WindowState& state) override {
+  void continue_after(const RunWindow& window, const WindowState& state) override {
     before_ = snapshot_of<Dim>(window, state);
     simulation_.reset();
   }

@@ -29,8 +29,8 @@ class WindowsAgain {
 
   /// The positions of all vertices at the beginning of the run.
   virtual std::vector<Position> beginning() const = 0;
-  /// Goes on behind this window, without integrating it. `state`: that of the window.
-  virtual void go_on_behind(const RunWindow& window, const WindowState& state) = 0;
+  /// Makes the window after this one the next, without integrating this one. `state`: that of the window.
+  virtual void continue_after(const RunWindow& window, const WindowState& state) = 0;
 
   /// The world lines of the next window; nothing if `stop` returned true. `state`: that of the window. Throws
   /// InputError when their hash, or the state at their end, is not that of the run.

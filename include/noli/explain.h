@@ -13,7 +13,7 @@
 //
 // Units: SI; each field names its own.
 // Errors: as summary_of_run says. Thread safety: any thread; the files are only read.
-// It verifies nothing: run_verify_motion in noli/verify.h does.
+// It verifies nothing: run_verify in noli/verify.h does.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 //   noli::run_export(request);
 //
 // Units: SI. Errors: as run_export says. Thread safety: any thread; two exports need two patterns.
-// It does not verify the run: run_verify_motion in noli/verify.h does.
+// It does not verify the run: run_verify in noli/verify.h does.
 #pragma once
 
 #include <cstdint>

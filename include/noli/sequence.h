@@ -62,11 +62,11 @@ struct SequenceOptions {
   std::function<void(double)> progress = {};  ///< called with the share of the current step that is done, in [0, 1]
 };
 
-/// The first contact of a step, exactly.
+/// The first contact of a step, or of a window, exactly.
 struct FirstInStep {
   FeatureContact contact;
   ContactKind kind = ContactKind::touching;
-  double time = 0;  ///< the largest double not above the exact time, in [0, 1] of the step
+  double time = 0;  ///< the largest double not above the exact time; in [0, 1] of the step, in seconds of a run
 };
 
 /// What was found in one step; counts are lower bounds unless it is complete.
@@ -117,8 +117,7 @@ class SequenceVerifier {
   void take_back(std::span<const Position> x_t0);
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
-  bool drop_contacts_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
-                              StepResult& result);
+  bool drop_met_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none, StepResult& result);
 
   Mesh mesh_;
   SequenceOptions options_;

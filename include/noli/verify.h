@@ -39,6 +39,7 @@
 namespace noli {
 
 class DecidedSteps;
+struct CommitPoint;
 class TrajectoryPipe;
 class Sink;
 struct StepResult;
@@ -74,7 +75,8 @@ struct VerifyRequest {
   std::optional<std::filesystem::path> scene_folder;  ///< where the run's scene file was; nothing: the run's folder
   std::optional<std::chrono::steady_clock::time_point> deadline;
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true, the outcome has what is settled so far
-  /// Called with what is done, and the share of it in [0, 1]: "look", then "verify". Calls do not overlap.
+  /// Called with what is done, and the share of it in [0, 1]: "look", then "verify"; "wait" for windows still to come.
+  /// Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
   std::optional<std::filesystem::path> trajectory;  ///< a file that all frames are written to, for checkers
   std::optional<std::filesystem::path> proof;       ///< the file where the user wants it, as reports name it
@@ -87,9 +89,12 @@ struct VerifyRequest {
   // For `noli verify` itself.
   bool lines_in_no_file = false;                 ///< of a run that is reproduced: it recorded frames alone
   TrajectoryPipe* trajectory_pipe = nullptr;     ///< on which the checker reads the motion; nothing: nobody does
-  std::optional<StepRange> only;                 ///< of frames: decide these steps alone
-  std::vector<StepResult>* decisions = nullptr;  ///< of frames: gets what was found in each step, without its proof
-  std::shared_ptr<DecidedSteps> decided;         ///< of frames: has what would be found in each step
+  std::optional<StepRange> only;                 ///< decide these steps alone
+  std::vector<StepResult>* decisions = nullptr;  ///< gets what was found in each step, without its proof
+  /// Of a run with `only`: gets the hash of the group of the first window of all, then of each that was decided.
+  std::vector<std::array<std::uint8_t, 32>>* windows = nullptr;
+  const CommitPoint* before = nullptr;    ///< of a run with `only`: where the window before those begins, if known
+  std::shared_ptr<DecidedSteps> decided;  ///< has what would be found in each step
 
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
@@ -219,11 +224,9 @@ struct VerifyOutcome {
   bool stop_for(const VerifyRequest& request);
 };
 
-/// Verifies frames. When it is asked to stop or at the deadline, it returns what was settled so far. Throws InputError,
-/// UsageError (options that do not go together), std::system_error (the proof), std::bad_alloc.
+/// Verifies frames, or a run (request.run) window by window; of a run also that each window begins where the last one
+/// ended. When it is asked to stop or at the deadline, it returns what was settled so far. Throws InputError, UsageError
+/// (options that do not go together), std::system_error (the proof), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
-
-/// The same for a run (request.run), window by window. Also verifies that each window begins where the last one ended.
-VerifyOutcome run_verify_motion(const VerifyRequest& request);
 
 }  // namespace noli

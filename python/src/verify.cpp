@@ -197,7 +197,7 @@ class Outcome {
       request_.stop = background.stop();
       request_.progress = progress_to(progress, background);
       ProofRoute route(request_);
-      outcome_ = request_.run ? run_verify_motion(request_) : run_verify(request_);
+      outcome_ = run_verify(request_);
       route.check(outcome_);
     });
     request_.stop = nullptr;

@@ -90,7 +90,8 @@ TEST_F(SimulateInProcess, GoesOnFromAWindowThatEndedEarly) {
     if (outcome.time != 0.01 && outcome.time != 0.02 && outcome.time != 0.03) ++early;
     VerifyRequest verify;
     verify.frames = {step_by_step.run};
-    const VerifyOutcome verified = run_verify_motion(verify);
+    verify.run = true;
+    const VerifyOutcome verified = run_verify(verify);
     EXPECT_EQ(verified.verdict, Verdict::no_contact);
     EXPECT_EQ(verified.ending->time, outcome.time);
     EXPECT_EQ(verified.ending->windows_total, outcome.windows_total);
@@ -125,12 +126,13 @@ TEST_F(SimulateInProcess, VerifyingARunTellsItsProgress) {
   run_simulate(asked);
   VerifyRequest verify;
   verify.frames = {asked.run};
+  verify.run = true;
   std::vector<double> shares;
   verify.progress = [&](std::string_view work, double share) {
     EXPECT_EQ(work, "verify");
     shares.push_back(share);
   };
-  EXPECT_EQ(run_verify_motion(verify).verdict, Verdict::no_contact);
+  EXPECT_EQ(run_verify(verify).verdict, Verdict::no_contact);
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::ranges::is_sorted(shares));
   EXPECT_EQ(shares.back(), 1);

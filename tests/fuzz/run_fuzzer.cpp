@@ -89,7 +89,7 @@ void verify(const fs::path& run) {
   request.run = true;
   request.threads = 1;
   request.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  run_verify_motion(request);
+  run_verify(request);
 }
 
 /// Writes the report of the run to an empty page.

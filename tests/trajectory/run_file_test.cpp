@@ -91,7 +91,7 @@ TEST_P(RunFile, IsReadFromAnyWindowOn) {
       EXPECT_EQ(reader.windows(), first);
       for (std::uint64_t k = 0; k < first; ++k) ASSERT_TRUE(all.next_window());
       EXPECT_EQ(reader.running_hash(), all.running_hash());
-      EXPECT_EQ(reader.group_hash(), all.group_hash());
+      EXPECT_EQ(reader.committed(), all.committed());
       for (std::uint64_t k = first; k < 4; ++k)
         expect_same(written.windows[k], *reader.next_window(), written.scene.header);
       EXPECT_FALSE(reader.next_window());
@@ -99,7 +99,47 @@ TEST_P(RunFile, IsReadFromAnyWindowOn) {
   }
 }
 
-/// The hash and the place of what follows are still checked.
+TEST_P(RunFile, ADamagedWindowIsNotPassedOver) {
+  const WrittenRun whole = write_run(run(3));
+  int noticed = 0;
+  for (std::size_t at = whole.commits[1] - 20; at < whole.commits[2]; ++at) {
+    std::string bytes = whole.bytes;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x40);
+    try {
+      RunReader reader(bytes, "run");
+      reader.skip_to(3);
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("run: byte ")) << at << error.what();
+      ++noticed;
+    }
+  }
+  EXPECT_GE(noticed, 100) << "headers and commits are looked at";
+  std::string torn = whole.bytes;
+  torn[whole.commits[1] - 1] ^= 1;  // the checksum of a commit
+  EXPECT_NE(input_error([&] { RunReader(torn, "run").skip_to(3); }).find("damaged: committed blocks follow"),
+            std::string::npos);
+}
+
+TEST(RunFileInAFolder, IsPassedOverWhileItGrows) {
+  const test::TemporaryFolder folder;
+  const SampleRun run = sample_run(3, RecordMode::full, 3);
+  RunWriter writer(folder.path(), run.scene);
+  RunReader reader(folder.path());
+  for (const OwnWindow& window : run.windows) {
+    EXPECT_FALSE(reader.skip_window());
+    writer.append_window(window.to_write());
+    reader.look_again();
+    EXPECT_FALSE(reader.skip_window());
+    writer.commit();
+    reader.look_again();
+    EXPECT_TRUE(reader.skip_window());
+    EXPECT_EQ(reader.running_hash(), writer.running_hash());
+    RunReader other(folder.path());
+    other.skip_to(reader.committed());
+    EXPECT_EQ(other.windows(), writer.windows());
+  }
+}
+
 TEST_P(RunFile, HasNoWindowBehindItsEnd) {
   const WrittenRun whole = write_run(run(3));
   for (std::size_t kept = whole.commits[2]; kept < whole.bytes.size(); ++kept) {

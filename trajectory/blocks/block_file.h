@@ -141,9 +141,12 @@ class BlockReader {
 
   /// Passes over the group that comes next by the headers of its blocks. Of what it passes over, only the checksum and
   /// number of the commit are checked, so committed() then has the hashes that the commit block tells. False if no
-  /// commit follows; nothing changes then. Precondition: next() gave a commit last, or nothing yet. Throws InputError
-  /// for a commit out of order.
+  /// commit follows; nothing changes then. Precondition: next() gave a commit last, or was not called yet. Throws
+  /// InputError for damage before a commit, as next() does, and for a commit out of order.
   bool skip_group();
+
+  /// Makes what follows a commit the next to be read. Precondition: committed() of a reader of this file gave it.
+  void continue_after(const CommitPoint& commit);
 
   /// Counts the commit blocks by the headers of all blocks, and gives the running hash of the commit that closes
   /// `group` (from 1). Nothing is checked.
@@ -151,18 +154,26 @@ class BlockReader {
   /// The block at this place; nothing where it is damaged.
   std::optional<Block> look_at_block(std::uint64_t offset);
 
-  /// For readers that wait for more: continues with the file as it is now, after the last commit that next() passed;
+  /// For readers that wait for more: continues with the file as it is now, after the last commit that was passed;
   /// also after an error. Precondition: there was a commit. Throws InputError when the file has become shorter.
   void look_again();
 
-  /// The end of the last commit that next() passed.
+  /// The end of the last commit that was passed.
   const CommitPoint& committed() const { return committed_; }
   /// After next() returned nothing: where the open group begins, if the file ends in one.
   std::optional<std::uint64_t> open_group() const;
   const std::string& name() const { return name_; }
 
  private:
+  /// What the header of a block tells.
+  struct BlockPlace {
+    FourLetters kind;
+    std::uint64_t end;  ///< of the block in the file
+  };
+
   void open(FourLetters content);
+  /// Nothing if the file is too short for a block there.
+  std::optional<BlockPlace> look_at_place(std::uint64_t offset);
   std::string read(std::uint64_t offset, std::uint64_t count);
   std::optional<std::string> read_block(std::uint64_t offset, std::string& header, std::string& body);
   bool commit_follows(std::uint64_t from);

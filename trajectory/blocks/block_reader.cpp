@@ -169,40 +169,51 @@ std::optional<Block> BlockReader::next() {
   return block;
 }
 
-bool BlockReader::skip_group() {
+std::optional<BlockReader::BlockPlace> BlockReader::look_at_place(std::uint64_t offset) {
   using namespace block_format;
-  for (std::uint64_t at = at_; size_ - at >= block_header_size + checksum_size;) {
-    const std::string header = read(at, block_header_size);
-    const auto length = get<std::uint64_t>(header.data() + 4);
-    if (length > size_ - at - block_header_size - checksum_size) return false;
-    const std::uint64_t end = at + block_header_size + length + checksum_size;
-    if (get<FourLetters>(header.data()) == commit) {
-      const std::optional<Block> block = look_at_block(at);
-      if (!block) return false;
-      require_next_commit(*block);
-      committed_ = {end, committed_.groups + 1, digest_at(block->payload, 40), digest_at(block->payload, 8)};
-      at_ = end;
-      return true;
-    }
-    at = end;
+  if (size_ - offset < block_header_size + checksum_size) return std::nullopt;
+  const std::string header = read(offset, block_header_size);
+  const auto length = get<std::uint64_t>(header.data() + 4);
+  if (length > size_ - offset - block_header_size - checksum_size) return std::nullopt;
+  return BlockPlace{get<FourLetters>(header.data()), offset + block_header_size + length + checksum_size};
+}
+
+bool BlockReader::skip_group() {
+  std::uint64_t at = at_;
+  auto place = look_at_place(at);
+  while (place && place->kind != block_format::commit) {
+    at = place->end;
+    place = look_at_place(at);
   }
-  return false;
+  const std::optional<Block> block = place ? look_at_block(at) : std::nullopt;
+  if (!block) {
+    if (commit_follows(at)) fail(at, "damaged: committed blocks follow, so this is no end that was cut off");
+    return false;
+  }
+  require_next_commit(*block);
+  committed_ = {place->end, committed_.groups + 1, digest_at(block->payload, 40), digest_at(block->payload, 8)};
+  at_ = place->end;
+  hash_ = {};
+  return true;
+}
+
+void BlockReader::continue_after(const CommitPoint& commit) {
+  if (commit.offset > size_) fail(size_, "the file has lost what was committed to it");
+  committed_ = commit;
+  at_ = commit.offset;
+  hash_ = {};
 }
 
 CommitLook BlockReader::look_at_commits(std::uint64_t group) {
   using namespace block_format;
   CommitLook look;
-  std::uint64_t open = file_header_size;
-  for (std::uint64_t at = file_header_size; size_ - at >= block_header_size + checksum_size;) {
-    const std::string header = read(at, block_header_size);
-    const std::uint64_t left = size_ - at - block_header_size - checksum_size;
-    const auto length = get<std::uint64_t>(header.data() + 4);
-    if (length > left) break;
-    const bool commits = get<FourLetters>(header.data()) == commit;
-    if (commits && ++look.count == group && length == commit_payload_size) {
-      look.running = digest_at(read(at + block_header_size, length), 40);
+  std::uint64_t open = file_header_size, at = file_header_size;
+  while (const auto place = look_at_place(at)) {
+    const bool commits = place->kind == commit;
+    if (commits && ++look.count == group && place->end - at == commit_size) {
+      look.running = digest_at(read(at + block_header_size, commit_payload_size), 40);
     }
-    at += block_header_size + length + checksum_size;
+    at = place->end;
     if (commits) look.last_group = std::exchange(open, at);
   }
   return look;

@@ -177,8 +177,13 @@ class RunReader {
 
   /// Makes `window` the one that next_window() gives, without reading those before it: that it begins where the one
   /// before ended is then not checked, nor are the hashes of what was passed over. Precondition: windows() <= window.
-  /// Throws InputError when the file has not that many.
+  /// Throws InputError when the file has fewer windows.
   void skip_to(std::uint64_t window);
+  /// Passes over the next window, in the same way. False if there is none.
+  bool skip_window();
+  /// The same for all windows up to this commit, which committed() of another reader of the run gave. Throws InputError
+  /// when the file is too short now.
+  void skip_to(const CommitPoint& commit);
 
   /// After next_window() returned nothing: where a window begins that was never committed, if there is one. That is not
   /// an error, but tell the user with open_window_message().
@@ -201,8 +206,8 @@ class RunReader {
   /// A quick look, which reads no world line and checks no hash. next_window() reports damage.
   RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
-  /// Of the window that was read, or passed over, last.
-  const Sha256Digest& group_hash() const { return blocks_.committed().group; }
+  /// The end of the window that was read, or passed over, last, with its hash.
+  const CommitPoint& committed() const { return blocks_.committed(); }
 
  private:
   friend class RunWriter;

@@ -148,12 +148,21 @@ std::optional<RunWindow> RunReader::next_window() {
 }
 
 void RunReader::skip_to(std::uint64_t window) {
-  for (; windows() < window; last_.reset()) {
-    if (!blocks_.skip_group()) {
-      throw InputError(blocks_.name(), "", fmt::format("ends before window {}", window + 1));
-    }
-    if (windows() == known_.count) require_hash(running_hash());
+  while (windows() < window) {
+    if (!skip_window()) throw InputError(blocks_.name(), "", fmt::format("ends before window {}", window + 1));
   }
+}
+
+void RunReader::skip_to(const CommitPoint& commit) {
+  blocks_.continue_after(commit);
+  last_.reset();
+}
+
+bool RunReader::skip_window() {
+  if (!blocks_.skip_group()) return false;
+  last_.reset();
+  if (windows() == known_.count) require_hash(running_hash());
+  return true;
 }
 
 void RunReader::expect(const KnownWindows& known) {

@@ -7,6 +7,7 @@
 
 #include "tests/app/runs/wild_run.h"
 #include "tests/app/shards/shards_fixture.h"
+#include "trajectory/blocks/folder_lock.h"
 
 namespace noli::app_tests {
 namespace {
@@ -46,6 +47,19 @@ TEST_F(InRanks, ARunIsVerified) {
   const Process all = job(3, asked_of_ranks({run}));
   EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
   expect_same_answer(whole({run}), all);
+}
+
+/// The rank that waits for windows 33 to 48 hears that another has found a contact.
+TEST_F(InRanks, AContactEndsTheWaiting) {
+  const std::string run = folder.path("run");
+  WildRun(0, 3, 1.5).write(run, 36);
+  const FolderLock lock(run);
+  const Process refused = job(2, asked_of_ranks({run}));
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("expected --follow"), std::string::npos) << refused.err;
+  const Process all = job(3, asked_of_ranks({run, "--follow"}));
+  EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
+  expect_same_answer(whole({run, "--follow"}), all);
 }
 
 TEST_F(InRanks, SomethingTouches) {

@@ -4,6 +4,9 @@
 // shards that are not whole give none.
 #include "tests/app/shards/shards_fixture.h"
 
+#include <sys/stat.h>
+
+#include "tests/app/runs/wild_run.h"
 #include "tests/app/sequences.h"
 #include "trajectory/blocks/block_file.h"
 #include "trajectory/blocks/block_sink.h"
@@ -136,6 +139,8 @@ TEST_F(Shards, StoppedOnesGoOn) {
   expect_same_answer(whole(asked), merge());
 }
 
+using OrderedJson = nlohmann::ordered_json;  // as Noli compares them
+
 class SpoiltShards : public Shards {
  protected:
   static constexpr FourLetters content = four_letters("SHRD");
@@ -159,6 +164,7 @@ class SpoiltShards : public Shards {
     frames_ = write_motion(40);
     ASSERT_EQ(part(frames_, "1/1").exit_code, 0);
   }
+  void try_heads() const;
   void expect_refused(const std::string& words) const {
     const Process process = merge();
     EXPECT_EQ(process.exit_code, 3) << process.out;
@@ -200,14 +206,27 @@ TEST_F(SpoiltShards, OnesThatAreSpoiltOrOfOtherFramesAreMadeAgain) {
   expect_same_answer(whole(frames_), merge());
 }
 
-/// Every member of the head, replaced by every kind of value, with the right checksums.
-TEST_F(SpoiltShards, AnyHeadEndsInAnAnswerOrAMessage) {
+/// Members of the head, replaced by every kind of value, with the right checksums: every seventh pair of these, all with
+/// NOLI_EVERY_FAULT=1.
+void SpoiltShards::try_heads() const {
   const std::vector<Block> blocks = blocks_of(shard(2));
-  const Json head = Json::parse(blocks[0].payload);
+  const OrderedJson head = OrderedJson::parse(blocks[0].payload);
   write_shard(shard(2), blocks);
   ASSERT_EQ(merge().exit_code, 0) << "nothing was changed";
   fs::remove(folder.path("all.json"));
-  const auto try_head = [&](const Json& other) {
+  const std::vector<OrderedJson> values = {nullptr,
+                                           true,
+                                           -1,
+                                           0,
+                                           1,
+                                           1e300,
+                                           "x",
+                                           OrderedJson::array(),
+                                           OrderedJson::array({OrderedJson::array({0, 1 << 30})}),
+                                           OrderedJson::object()};
+  std::uint64_t tried = 0;
+  const auto try_head = [&](const OrderedJson& other) {
+    if (tried++ % trials(7, 1) != 0) return;
     std::vector<Block> changed = blocks;
     changed[0].payload = other.dump();
     write_shard(shard(2), changed);
@@ -216,19 +235,55 @@ TEST_F(SpoiltShards, AnyHeadEndsInAnAnswerOrAMessage) {
     EXPECT_EQ(process.err.find("internal error"), std::string::npos) << process.err;
   };
   for (const auto& item : head.items()) {
-    for (const Json& value : {Json(), Json(true), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object()}) {
-      Json other = head;
+    for (const OrderedJson& value : values) {
+      OrderedJson other = head;
       other[item.key()] = value;
       try_head(other);
     }
   }
   for (const auto& item : head["steps"][3].items()) {
-    for (const Json& value : {Json(), Json(-1), Json("x"), Json::array({Json::array({0, 1 << 30})})}) {
-      Json other = head;
+    for (const OrderedJson& value : values) {
+      OrderedJson other = head;
       other["steps"][3][item.key()] = value;
       try_head(other);
     }
   }
+}
+
+TEST_F(SpoiltShards, AnyHeadEndsInAnAnswerOrAMessage) { try_heads(); }
+
+TEST_F(SpoiltShards, AnyHeadOfARunEndsInAnAnswerOrAMessage) {
+  fs::remove_all(shards());
+  WildRun(2, 3, 5).write(folder.path("run"), 36);
+  ASSERT_EQ(part({folder.path("run")}, "1/1").exit_code, 0);
+  try_heads();
+}
+
+/// Whoever changes a shard can change counts, but then the checker finds another claim than was asked.
+TEST_F(SpoiltShards, OnesWithAnInventedContactAreRefused) {
+  std::vector<Block> blocks = blocks_of(shard(2));
+  OrderedJson head = OrderedJson::parse(blocks[0].payload);
+  head["steps"][3]["contacts"][0] = 1;
+  head["touch"] = 19;
+  blocks[0].payload = head.dump();
+  write_shard(shard(2), blocks);
+  expect_refused("the shards do not fit together");
+}
+
+TEST_F(SpoiltShards, WhatIsNoFileIsRefused) {
+  fs::remove(shard(2));
+  fs::create_directory(shard(2));
+  expect_refused("task_000002.shard: is no regular file");
+  EXPECT_EQ(part(frames_, "1/1").exit_code, 3);
+  fs::remove(shards() + "/request.json");
+  ASSERT_EQ(::mkfifo((shards() + "/request.json").c_str(), 0600), 0);
+  expect_refused("request.json: is no regular file");
+}
+
+TEST_F(SpoiltShards, AreNotOverwrittenByTheAnswer) {
+  const std::string before = bytes_of(shard(1));
+  EXPECT_EQ(run_noli({"merge", shards(), "--force", "--json", shard(1)}).exit_code, 3);
+  EXPECT_EQ(bytes_of(shard(1)), before);
 }
 
 TEST_F(SpoiltShards, FramesThatMovedAreNamed) {
@@ -273,6 +328,8 @@ TEST_F(SpoiltShards, AFolderOfAnotherRequestIsRefused) {
 }
 
 TEST_F(Shards, OfSomethingElseAreRefused) {
+  EXPECT_EQ(part({write_motion(1)[0]}, "1/1").exit_code, 3);
+  EXPECT_FALSE(fs::exists(shards())) << "a request that is refused leaves nothing";
   const Words frames = write_motion(3);
   for (const char* which : {"0/3", "4/3", "1", "1/0", "a/b", "1/3 "}) {
     EXPECT_EQ(part(frames, which).exit_code, 3) << which;
