@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What was decided of the steps of a sequence or a run, by other processes or machines, for a verification that joins it.
+// What was decided of the steps of a sequence or a run, by other processes or machines, for a verification that joins
+// it.
 //
 // Steps count from 0, and are asked for in ascending order.
 #pragma once

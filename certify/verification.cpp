@@ -16,8 +16,8 @@
 namespace noli {
 namespace {
 
-/// Removes the pairs that meet at the beginning of a step. `resting`: the findings with all vertices at rest at x, without
-/// reports.
+/// Removes the pairs that meet at the beginning of a step. `resting`: the findings with all vertices at rest at x,
+/// without reports.
 void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x) {
   found.complete = found.complete && resting.complete;
   found.stages += resting.stages;

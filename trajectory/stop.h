@@ -47,7 +47,8 @@ class StopOfThread {
   const std::atomic<bool>* outer_;
 };
 
-/// What `stop` of the innermost StopOfThread of this thread is, for threads that work on its behalf; nullptr without one.
+/// What `stop` of the innermost StopOfThread of this thread is, for threads that work on its behalf; nullptr without
+/// one.
 inline const std::atomic<bool>* stop_of_thread() noexcept { return stop_detail::of_thread; }
 
 /// Whether, and why, the process or the work of this thread was asked to stop. The user comes before the time limit.

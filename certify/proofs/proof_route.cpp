@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <noli/errors.h>
 #include "certify/decided_steps.h"
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/check_frames.h"

@@ -26,8 +26,8 @@ class ShardMotion {
 
   /// How many steps there are now. Throws InputError when there is none, and will be none.
   virtual std::uint64_t step_count() = 0;
-  /// Waits until the motion has at least `count` steps, or gets no more: a run may still be being written. Ends early if
-  /// `needed` returns false. Throws Stopped.
+  /// Waits until the motion has at least `count` steps, or gets no more: a run may still be being written. Ends early
+  /// if `needed` returns false. Throws Stopped.
   virtual void wait_for(std::uint64_t /*count*/, const std::function<bool()>& /*needed*/) {}
   /// Whether a whole shard was made from these steps as they are now. Throws InputError, Stopped.
   virtual bool is_source_of(const ShardReader& shard, const StepRange& range) = 0;

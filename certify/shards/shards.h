@@ -58,16 +58,16 @@ struct ShardOutcome {
 std::filesystem::path usual_shard_folder(const VerifyRequest& request);
 
 /// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
-/// request has `check`, `proof`, or a least distance. Of a run that is being written, it does the windows that are there,
-/// with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be cut into parts: frames
-/// that are in no regular file, world lines that are in no file and are to be checked, shards of another request in the
-/// folder.
+/// request has `check`, `proof`, or a least distance. Of a run that is being written, it does the windows that are
+/// there, with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be cut into parts:
+/// frames that are in no regular file, world lines that are in no file and are to be checked, shards of another request
+/// in the folder.
 ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,
-/// damaged, or was made from other files or windows. Whether and how a proof is written, threads and limits are for the caller to
-/// set. One run_verify() at a time. Throws InputError when the folder has no shards of this version, or the run is not
-/// there.
+/// damaged, or was made from other files or windows. Whether and how a proof is written, threads and limits are for the
+/// caller to set. One run_verify() at a time. Throws InputError when the folder has no shards of this version, or the
+/// run is not there.
 VerifyRequest request_of_shards(const std::filesystem::path& folder);
 
 }  // namespace noli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests `noli verify RUN --shard` and `noli merge`: the answer of all shards is that of one process, byte for byte, also
-// of a run that is still being written, or that recorded only frames.
+// Tests `noli verify RUN --shard` and `noli merge`: the answer of all shards is that of one process, byte for byte,
+// also of a run that is still being written, or that recorded only frames.
 #include "tests/app/runs/wild_run.h"
 #include "tests/app/shards/shards_fixture.h"
 

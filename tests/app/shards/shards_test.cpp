@@ -206,8 +206,8 @@ TEST_F(SpoiltShards, OnesThatAreSpoiltOrOfOtherFramesAreMadeAgain) {
   expect_same_answer(whole(frames_), merge());
 }
 
-/// Members of the head, replaced by every kind of value, with the right checksums: every seventh pair of these, all with
-/// NOLI_EVERY_FAULT=1.
+/// Members of the head, replaced by every kind of value, with the right checksums: every seventh pair of these, all
+/// with NOLI_EVERY_FAULT=1.
 void SpoiltShards::try_heads() const {
   const std::vector<Block> blocks = blocks_of(shard(2));
   const OrderedJson head = OrderedJson::parse(blocks[0].payload);
