@@ -58,6 +58,11 @@ def comparable(result):
     return result
 
 
+def reports_are_there():
+    _, out, _ = run_noli("--version", expected=0)
+    return "without reports" not in out
+
+
 class TestCase(unittest.TestCase):
     """With a folder of its own, which vanishes."""
 

@@ -9,10 +9,11 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import unittest
 
 import noli
 import numpy as np
-from support import ROOT, TestCase, falling_sheet
+from support import ROOT, TestCase, falling_sheet, reports_are_there
 
 
 class Snippets(TestCase):
@@ -30,6 +31,7 @@ class Snippets(TestCase):
                 exec(compile(snippet, page, "exec"), names)
         return len(snippets)
 
+    @unittest.skipUnless(reports_are_there(), "built without reports")
     def test_the_tutorial(self):
         self.assertGreater(self.run_all("docs/python.md"), 12)
         for name in ("first.png", "first.vtu", "fall.noli", "fall.html"):
