@@ -125,12 +125,16 @@ Sha256Digest RepairedFrames::find_fingerprint() const {
   if (request_.masses != "size" && request_.masses != "uniform")
     json["masses_file"] = hex(hash_of(read_whole_file(request_.masses)));
   if (request_.ignore) json["ignore"] = hex(hash_of(read_whole_file(*request_.ignore)));
-  for (const BodyFrames& body : request_.reading.bodies) json["bodies"].push_back({body.name, body.still});
+  // Arrays from the start: where null is to become one and memory runs out, this JSON library leaves neither.
+  Json bodies = Json::array(), inputs = Json::array();
+  for (const BodyFrames& body : request_.reading.bodies) bodies.push_back({body.name, body.still});
   for (const FrameFacts& facts : source_.facts()) {
     // Wherever the file is now.
-    json["inputs"].push_back(
+    inputs.push_back(
         {std::filesystem::path(facts.file).filename().string(), facts.body, facts.bytes, hex(facts.sha256)});
   }
+  json["bodies"] = std::move(bodies);
+  json["inputs"] = std::move(inputs);
   return hash_of(to_text(json));
 }
 
