@@ -43,7 +43,8 @@ ExitCode run(const MergeArguments& arguments) {
   std::vector<std::filesystem::path> inputs = request.frames;
   inputs.push_back(arguments.folder / "request.json");
   if (request.ignore) inputs.push_back(*request.ignore);
-  for (const auto& entry : std::filesystem::directory_iterator(arguments.folder)) {
+  std::error_code error;  // what cannot be listed is an error where it is read
+  for (const auto& entry : std::filesystem::directory_iterator(arguments.folder, error)) {
     if (entry.path().extension() == ".shard") inputs.push_back(entry.path());
   }
   const Output output(arguments.outputs.results, inputs, files_of(request, arguments.outputs));

@@ -93,18 +93,20 @@ void CheckerProcess::write(std::string_view bytes) {
   if (cut_) return;
   const Child::Written written = child_.write(bytes, limits_);
   cut_ = written == Child::Written::stopped;
-  if (written != Child::Written::refused) return;
-  throw std::runtime_error(fmt::format("{} reads no more of the proof{}", name_of(checker_), why()));
+  if (written == Child::Written::refused) fail_as_refused();
 }
 
-/// Its last words before it ended, if any.
-std::string CheckerProcess::why() {
+/// With its last words before it ended, if any.
+void CheckerProcess::fail_as_refused() {
+  const std::string problem = fmt::format("{} reads no more of the proof", name_of(checker_));
+  std::optional<CheckerVerdict> verdict;
   try {
-    const auto verdict = finish();
-    return verdict ? ": " + first_line(verdict->words) : "";
+    verdict = finish();
   } catch (const std::runtime_error& error) {
-    return std::string(": ") + error.what();
+    throw std::runtime_error(problem + ": " + error.what());
   }
+  if (verdict) throw ProofRefused(problem + ": " + first_line(verdict->words));
+  throw std::runtime_error(problem);
 }
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,11 @@ bool has_checker(Checker checker);
 
 /// A running checker. It does not get the signals of the terminal: this process gets them and ends it. The destructor
 /// ends it if it has not ended.
+/// A checker ended with a verdict before it had read all of the proof.
+struct ProofRefused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class CheckerProcess {
  public:
   /// Starts it. Throws UsageError when there is no verified checker, std::runtime_error when there is no plain one.
@@ -29,7 +36,7 @@ class CheckerProcess {
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
   /// Writes the next bytes of the proof. After a stop nothing more is written; finish() then returns nothing. Throws
-  /// std::runtime_error when the checker stops reading.
+  /// ProofRefused when the checker stops reading with a verdict, std::runtime_error when it does without one.
   void write(std::string_view bytes);
   /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(): its
   /// verdict is then not about the whole proof. Throws HelperError when the machine failed it (memory, a signal);
@@ -40,7 +47,7 @@ class CheckerProcess {
   static std::vector<std::string> command(const CheckRequest& request);
   bool stopped() const;
   void tell_progress() const;
-  std::string why();
+  [[noreturn]] void fail_as_refused();
 
   Checker checker_;
   const std::atomic<bool>* stop_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +33,23 @@ class ScratchFile : public FileSink {
  public:
   explicit ScratchFile(const fs::path& path) : FileSink(path, Open::create) {}
   void sync() override {}
+};
+
+/// To a checker, of a proof that others have made.
+class JoinedSink : public CheckerSink {
+ public:
+  JoinedSink(CheckerProcess& checker, std::function<void(const std::string&)> refuse)
+      : CheckerSink(checker), refuse_(std::move(refuse)) {}
+  void write(std::string_view bytes) override {
+    try {
+      CheckerSink::write(bytes);
+    } catch (const ProofRefused& refused) {
+      refuse_(refused.what());
+    }
+  }
+
+ private:
+  std::function<void(const std::string&)> refuse_;
 };
 
 /// To a file, and on the way to a checker.
@@ -160,7 +178,8 @@ std::unique_ptr<Sink> ProofRoute::to_file() const {
 std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
   if (!can_be_asked(claim)) return std::make_unique<NoSink>();
   checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
-  return std::make_unique<CheckerSink>(*checker_);
+  if (request_.decided == nullptr) return std::make_unique<CheckerSink>(*checker_);
+  return std::make_unique<JoinedSink>(*checker_, [this](const std::string& problem) { refuse(problem); });
 }
 
 std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {

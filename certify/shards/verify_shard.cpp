@@ -53,10 +53,11 @@ class ShardMaker {
 
  private:
   std::optional<std::uint64_t> next_task() {
-    end_if_stopped(request_);
     const auto task = work_.next_task ? work_.next_task() : std::optional(work_.number - 1 + made_++ * work_.of);
     if (task && request_.follow && *task <= last_needed_) wait_for(*task);
-    return task && *task < outcome_.tasks_total ? task : std::nullopt;
+    if (!task || *task >= outcome_.tasks_total) return std::nullopt;
+    end_if_stopped(request_);
+    return task;
   }
 
   /// Until the task is complete, or as complete as it gets.

@@ -270,6 +270,29 @@ TEST_F(SpoiltShards, OnesWithAnInventedContactAreRefused) {
   expect_refused("the shards do not fit together");
 }
 
+/// The first step of half a megabyte a step: the checker, which reads along with one thread, ends long before the proof.
+TEST_F(Shards, AProofThatIsRefusedEarlyIsAFaultOfTheShards) {
+  ASSERT_EQ(part(write_waves(3), "1/1").exit_code, 0);
+  std::vector<Block> blocks;
+  BlockReader reader(fs::path(shard(1)), four_letters("SHRD"));
+  while (auto block = reader.next()) blocks.push_back(*block);
+  const auto tokens = std::ranges::find(blocks, four_letters("TOKS"), &Block::kind);
+  ASSERT_NE(tokens, blocks.end());
+  std::ranges::fill(tokens->payload, '\xff');
+  fs::remove(shard(1));
+  {
+    BlockWriter writer(std::make_unique<FileSink>(shard(1), FileSink::Open::create), four_letters("SHRD"));
+    for (const Block& block : blocks) {
+      block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
+    }
+  }
+  for (const char* threads : {"1", "2"}) {
+    const Process process = run_noli({"merge", shards(), "--threads", threads});
+    EXPECT_EQ(process.exit_code, 3) << process.out << process.err;
+    EXPECT_NE(process.err.find("the shards do not fit together"), std::string::npos) << process.err;
+  }
+}
+
 TEST_F(SpoiltShards, WhatIsNoFileIsRefused) {
   fs::remove(shard(2));
   fs::create_directory(shard(2));
