@@ -270,7 +270,8 @@ TEST_F(SpoiltShards, OnesWithAnInventedContactAreRefused) {
   expect_refused("the shards do not fit together");
 }
 
-/// The first step of half a megabyte a step: the checker, which reads along with one thread, ends long before the proof.
+/// The first step of half a megabyte a step: the checker, which reads along with one thread, ends long before the
+/// proof.
 TEST_F(Shards, AProofThatIsRefusedEarlyIsAFaultOfTheShards) {
   ASSERT_EQ(part(write_waves(3), "1/1").exit_code, 0);
   std::vector<Block> blocks;
