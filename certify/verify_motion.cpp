@@ -122,7 +122,7 @@ class RunVerification : private Verification {
     if (before && request_.windows != nullptr) request_.windows->push_back(before->group_hash);
     if (before && !stopped()) group_cells(*before);
     if (before && first > 1) {
-      request_.before != nullptr ? reader_.skip_to(*request_.before) : reader_.skip_to(first - 1);
+      reader_.skip_to(*request_.before);
       before = next_committed();
     }
     if (before && again_) again_->continue_after(*before, reader_.state());

@@ -19,11 +19,6 @@ std::optional<RunWindow> SeriesReader::next_window() {
   return window;
 }
 
-void SeriesReader::skip_to(std::uint64_t window) {
-  if (windows() < window) state_.reset();
-  RunReader::skip_to(window);
-}
-
 void SeriesReader::skip_to(const CommitPoint& commit) {
   state_.reset();
   RunReader::skip_to(commit);

@@ -23,7 +23,6 @@ class SeriesReader : public RunReader {
   std::optional<RunWindow> next_window();
 
   /// Like RunReader's. The row of the next window is then not compared with that of the one before it.
-  void skip_to(std::uint64_t window);
   void skip_to(const CommitPoint& commit);
 
   /// The state of the last window read. Throws InputError when it is not a row of this version.

@@ -70,7 +70,7 @@ class Windows : public ShardMotion {
   }
 
   std::uint64_t step_count() override {
-    is_missing(0);
+    look();
     if (counted_.windows() == 0 && !request_.follow) {
       throw InputError(run_.string(), "", "has no window yet; expected one at least, or --follow");
     }
@@ -79,7 +79,7 @@ class Windows : public ShardMotion {
 
   void wait_for(std::uint64_t count, const std::function<bool()>& needed) override {
     constexpr auto pause = std::chrono::milliseconds(50);
-    while (request_.follow && is_missing(count) && needed()) {
+    while (request_.follow && look() && counted_.windows() < count && needed()) {
       end_if_stopped(request_);
       if (request_.progress) request_.progress("wait", 0);
       std::this_thread::sleep_for(pause);
@@ -106,15 +106,15 @@ class Windows : public ShardMotion {
   }
 
  private:
-  /// Whether there are fewer windows, and more may come.
-  bool is_missing(std::uint64_t windows) {
+  /// Counts the windows that are there now. Returns whether more may come.
+  bool look() {
     const bool is_written = is_locked(run_);  // asked before the look, so that the last windows are seen
     try {
       count();
     } catch (const InputError&) {  // a window that is not committed may be taken back while it is looked at
       if (!is_written) throw;
     }
-    return is_written && counted_.windows() < windows;
+    return is_written;
   }
 
   void count() {

@@ -93,7 +93,8 @@ struct VerifyRequest {
   std::vector<StepResult>* decisions = nullptr;  ///< gets what was found in each step, without its proof
   /// Of a run with `only`: gets the hash of the group of the first window of all, then of each that was decided.
   std::vector<std::array<std::uint8_t, 32>>* windows = nullptr;
-  const CommitPoint* before = nullptr;    ///< of a run with `only`: where the window before those begins, if known
+  const CommitPoint* before =
+      nullptr;  ///< of a run with `only`: where the window before those begins, if there are others before it
   std::shared_ptr<DecidedSteps> decided;  ///< has what would be found in each step
 
   /// Without a proof there is no answer.

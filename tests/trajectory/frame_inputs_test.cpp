@@ -251,8 +251,7 @@ TEST(FrameInputs, AFileThatChangesInBetweenIsRefused) {
   EXPECT_NE(input_error([&] { inputs.read(0); }).find("has changed since it was looked at"), std::string::npos);
 }
 
-/// Frames that a thread reads ahead are those that are read one after another, and nothing is told of the one that
-/// nobody asked for.
+/// Reading ahead gives the same frames, and reports nothing about a frame that was not asked for.
 TEST(FrameInputs, AreTheSameReadAhead) {
   const TemporaryFolder folder;
   Paths frames;

@@ -139,10 +139,10 @@ class BlockReader {
   /// or when a block is damaged although commits follow it. After an error the reader must not be used.
   std::optional<Block> next();
 
-  /// Passes over the group that comes next by the headers of its blocks. Of what it passes over, only the checksum and
-  /// number of the commit are checked, so committed() then has the hashes that the commit block tells. False if no
-  /// commit follows; nothing changes then. Precondition: next() gave a commit last, or was not called yet. Throws
-  /// InputError for damage before a commit, as next() does, and for a commit out of order.
+  /// Skips the group that comes next by the headers of its blocks. Of what it skips, only the checksum and number of
+  /// the commit are checked, so committed() then has the hashes that the commit block tells. False if no commit
+  /// follows; nothing changes then. Precondition: next() gave a commit last, or was not called yet. Throws InputError
+  /// for damage before a commit, as next() does, and for a commit out of order.
   bool skip_group();
 
   /// Makes what follows a commit the next to be read. Precondition: committed() of a reader of this file gave it.

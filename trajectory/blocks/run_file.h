@@ -176,10 +176,10 @@ class RunReader {
   std::optional<RunWindow> next_window();
 
   /// Makes `window` the one that next_window() gives, without reading those before it: that it begins where the one
-  /// before ended is then not checked, nor are the hashes of what was passed over. Precondition: windows() <= window.
+  /// before ended is then not checked, nor are the hashes of what was skipped. Precondition: windows() <= window.
   /// Throws InputError when the file has fewer windows.
   void skip_to(std::uint64_t window);
-  /// Passes over the next window, in the same way. False if there is none.
+  /// Skips the next window in the same way. Returns false if there is none.
   bool skip_window();
   /// The same for all windows up to this commit, which committed() of another reader of the run gave. Throws InputError
   /// when the file is too short now.
@@ -206,7 +206,7 @@ class RunReader {
   /// A quick look, which reads no world line and checks no hash. next_window() reports damage.
   RunLook look();
   const Sha256Digest& running_hash() const { return blocks_.committed().running; }
-  /// The end of the window that was read, or passed over, last, with its hash.
+  /// The end of the window that was read or skipped last, with its hash.
   const CommitPoint& committed() const { return blocks_.committed(); }
 
  private:
