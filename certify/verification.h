@@ -45,8 +45,9 @@ Claim claim_of_run(const VerifyRequest& request, const RunScene& scene);
 /// Throws UsageError for options that a run does not have, InputError when the run lacks what they need.
 void require_can_be_asked(const VerifyRequest& request, const RunReader& run);
 
-/// run_verify() for a run.
-VerifyOutcome run_verify_motion(const VerifyRequest& request);
+/// run_verify() for frames, and for a run.
+VerifyOutcome verify_frames(const VerifyRequest& request);
+VerifyOutcome verify_run(const VerifyRequest& request);
 
 class Verification {
  protected:

@@ -1,495 +1,425 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <noli/verify.h>
-
+//
+// run_verify() for a run: verifies the windows of a run again, from its files alone.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
-#include <stdexcept>
-#include <system_error>
-#include <utility>
+#include <chrono>
+#include <thread>
 
 #include <noli/errors.h>
 #include <noli/sequence.h>
+#include <noli/verify.h>
 #include "certify/decided_steps.h"
-#include "certify/groups.h"
-#include "certify/process/hdf5_frames.h"
-#include "certify/process/unfinished_file.h"
-#include "certify/proofs/prove_frames.h"
+#include "certify/not_compared.h"
+#include "certify/proofs/prove_run.h"
 #include "certify/proofs/trajectory_pipe.h"
+#include "certify/runs/run_folder.h"
+#include "certify/runs/run_log_facts.h"
+#include "certify/runs/run_series_reader.h"
+#include "certify/simulate/windows_again.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
+#include "integrator/scene/scene.h"
 #include "proofs/prover/chain.h"
-#include "trajectory/blocks/frames_file.h"
-#include "trajectory/cells.h"
-#include "trajectory/formats/frame_order.h"
-#include "trajectory/formats/frame_sequence.h"
-#include "trajectory/formats/frames.h"
-#include "trajectory/formats/stored_frames.h"
-#include "trajectory/merge.h"
-#include "trajectory/sample.h"
+#include "proofs/prover/windows/window_features.h"
+#include "proofs/prover/windows/window_verifier.h"
+#include "trajectory/blocks/folder_lock.h"
+#include "trajectory/blocks/run_file.h"
 #include "trajectory/stop.h"
 
 namespace noli {
 namespace {
 
-/// With one thread, there is no other to read.
-FrameReading reading_of(const VerifyRequest& request) {
-  FrameReading reading = request.reading;
-  reading.ahead = request.threads != 1;
-  return reading;
+RunEnding ending_of(const std::filesystem::path& run, const LogFacts& log) {
+  RunEnding ending;
+  if (!log.going_on && !log.last_end.empty()) ending.why = log.last_end;
+  ending.going_on = log.going_on;
+  ending.duration = duration_of(run);
+  return ending;
 }
 
-Motion motion_of(const VerifyRequest& request) { return request.constant_motion ? Motion::constant : Motion::linear; }
-
-/// Reports a missing frame before the work begins, not an hour later. Opens nothing: that would wait for the writer of
-/// a pipe, and take its only reader away from it.
-void require_readable(const std::vector<std::filesystem::path>& paths) {
-  for (const auto& path : paths) {
-    if (path == "-") continue;
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error) || ::access(path.c_str(), R_OK) != 0) {
-      throw InputError(path.string(), "", "cannot be opened; expected a file of frames");
-    }
-  }
+/// The total number of windows; nothing if the duration is unknown, or needs too many windows to count.
+std::optional<std::uint64_t> windows_total(const RunEnding& ending, std::uint64_t there, double window) {
+  const double windows = ending.duration ? integrator::windows_up_to(*ending.duration, window) : 0;
+  if (!(windows > 0 && windows < 0x1p53)) return std::nullopt;
+  return integrator::windows_in_all(there, ending.time, window, static_cast<std::uint64_t>(windows));
 }
 
-/// The file of --trajectory. Until all frames are in it, it has another name, so that no checker takes a part for the
-/// whole.
-class TrajectoryFile {
+class RunVerification : private Verification {
  public:
-  TrajectoryFile(const std::filesystem::path& file, const Mesh& mesh)
-      : file_(file), writer_(std::make_unique<FileSink>(file_.path(), FileSink::Open::create), mesh) {}
-
-  FramesWriter& writer() { return writer_; }
-  /// Throws std::system_error.
-  void finish() {
-    writer_.finish();
-    file_.finish();
-    finished_ = true;
-  }
-  bool finished() const { return finished_; }
-
- private:
-  UnfinishedFile file_;
-  FramesWriter writer_;
-  bool finished_ = false;
-};
-
-class SequenceVerification : private Verification {
- public:
-  explicit SequenceVerification(const VerifyRequest& request)
+  explicit RunVerification(const VerifyRequest& request)
       : Verification(request),
-        source_(open_all_frames(request.frames, reading_of(request))),
-        sequence_(*source_, motion_of(request)) {
-    if (!request.reading.given) require_readable(request.frames);
-    if (request.merge_identical && !source_->can_begin_again()) {
-      throw UsageError(
-          "--merge-identical: reads frames twice; expected files or arrays, found a pipe, a generator or standard "
-          "input");
-    }
-    outcome_.steps_total = sequence_.step_count().value_or(0);
-  }
-
-  VerifyOutcome operator()() {
-    const Stopwatch watch;
-    look_at_all();
-    try {
-      verify_steps();
-    } catch (const Stopped&) {
-      outcome_.complete = false;
-    }
-    conclude();
-    outcome_.seconds = watch.seconds() - outcome_.read_seconds;
-    return std::move(outcome_);
-  }
-
- private:
-  void verify_steps() {
-    if (request_.merge_identical) find_classes();
-    if (request_.only) skip_to_first();
-    while (!stopped() && outcome_.complete) {
-      if (!read_next(sequence_)) {
-        ended_ = outcome_.complete && !stopped();
-        break;
-      }
-      if (sequence_.step() == 0) begin();
-      if (stopped()) outcome_.complete = false;  // in the first step, the claim may not be known then
-      if (!outcome_.complete) break;
-      require_plane();
-      note_rest();
-      write_frames();
-      verify();
-      if (enough() || (request_.only && sequence_.step() + 1 >= request_.only->end)) break;
-    }
-    write_other_frames();
-  }
-
-  /// Of some steps alone, the first frames still say what all steps are about.
-  void skip_to_first() {
-    if (request_.only->first == 0 || stopped() || !read_next(sequence_)) return;
-    begin();
-    if (stopped()) outcome_.complete = false;
-    if (outcome_.complete) sequence_.skip_to(request_.only->first);
-  }
-
-  /// Whatever the verdict, the file of --trajectory has all frames.
-  void write_other_frames() {
-    if (!request_.trajectory) return;
-    while (!stopped() && read_next(sequence_)) write_frames();
-    if (!trajectory_ || stopped()) return;
-    trajectory_->finish();
-  }
-
-  /// Those that were read for this step.
-  void append_frames(FramesWriter& writer) const {
-    const bool both = sequence_.step() == 0 && !request_.constant_motion;
-    if (both) writer.append(sequence_.x_t0());
-    writer.append(sequence_.x_t1());
-  }
-
-  void write_frames() {
-    if (!request_.trajectory) return;
-    if (!trajectory_) trajectory_.emplace(*request_.trajectory, sequence_.mesh());
-    append_frames(trajectory_->writer());
-  }
-
-  /// To a checker that reads them on their way. It reads those of a step when the proof comes to it.
-  void give_frames() {
-    TrajectoryPipe* const pipe = request_.trajectory_pipe;
-    const bool wanted = !doubtful() && !outcome_.no_proof && (proof_ || sequence_.step() == 0);
-    if (pipe == nullptr || !wanted) return;
-    if (given_) pipe->drained();
-    if (!given_) given_.emplace(pipe->sink(), sequence_.mesh());
-    append_frames(*given_);
-  }
-
-  /// Reports a frame with another mesh before the first step is decided.
-  void look_at_all() {
-    const Stopwatch watch;
-    try {
-      const std::size_t count = source_->count().value_or(0);
-      for (std::size_t k = 0; k < count && !stopped(); ++k) {
-        if (is_read(k)) source_->look_at(k);
-        tell("look", static_cast<double>(k + 1) / static_cast<double>(count));
-      }
-      if (request_.decided) request_.decided->set_inputs(source_->facts());
-    } catch (const Stopped&) {
-      stopped();
-    }
-    outcome_.read_seconds += watch.seconds();
-  }
-
-  bool is_read(std::size_t frame) const {
-    const auto& only = request_.only;
-    return !only || frame < 2 || (only->first <= frame && frame <= only->end);
-  }
-
-  /// Whether there was another step; false if the user stopped the reading.
-  bool read_next(FrameSequence& sequence) {
-    const Stopwatch watch;
-    bool read = false;
-    try {
-      read = sequence.next();
-    } catch (const Stopped&) {
-      outcome_.complete = false;
-      stopped();
-    }
-    outcome_.read_seconds += watch.seconds();
-    return read;
-  }
-
-  /// The first pass of --merge-identical.
-  void find_classes() {
-    FrameSequence frames(*source_, Motion::constant);
-    while (!stopped() && read_next(frames)) {
-      if (!classes_) classes_.emplace(frames.mesh().vertex_count);
-      classes_->refine(frames.x_t0());
-    }
-  }
-
-  /// Sets up what the first step decides for all steps.
-  void begin() {
-    Mesh mesh = sequence_.mesh();
-    const auto unreferenced = unreferenced_vertices(mesh);
-    if (request_.points) {
-      mesh.points.insert(mesh.points.end(), unreferenced.begin(), unreferenced.end());
-    } else {
-      outcome_.unreferenced_vertices = unreferenced.size();
-    }
-    if (classes_) {
-      mesh = with_merged_vertices(mesh, *classes_);
-      outcome_.merged_vertices = classes_->merged_count();
-    }
-    if (mesh.cell_count() == 0) {
-      throw InputError(sequence_.name_t0(), "",
-                       "no faces, edges or points; expected something that can touch (see --points)");
-    }
-    outcome_.dimension = request_.dimension.value_or(in_one_plane(sequence_.x_t0(), sequence_.x_t1()) ? 2 : 3);
-    if (request_.ignore) leave_out(*request_.ignore, mesh);
+        run_(request.frames.at(0)),
+        live_(request.live),
+        log_(request.only ? LogFacts() : read_log(run_)),  // whoever joins the windows compares them with the log
+        reader_(open_run(run_, log_)) {
+    require_can_be_asked(request, reader_);
+    request.only ? look_at_some() : look_at_run();
+    const Mesh& mesh = reader_.mesh();
+    outcome_.dimension = static_cast<int>(reader_.header().dimension);
     outcome_.vertices = mesh.vertex_count;
     outcome_.faces = mesh.faces.size();
     outcome_.edges = mesh.edges.size();
     outcome_.points = mesh.points.size();
-    verifier_.emplace(std::move(mesh), options());
-    if (request_.only_new && !find_baseline()) return;
-    labels_ = labels_of_frames(verifier_->mesh(), exclusions(), outcome_.baseline);
-    outcome_.claim = claim_of_frames(request_, outcome_, verifier_->mesh(), labels_);
-    if (request_.decided) request_.decided->set_claim(outcome_.claim);
+    outcome_.not_compared = not_compared(mesh, reader_.scene().labels, reader_.scene().exclusions, log_.names);
+    outcome_.reproduced = request.reproduce;
+    outcome_.claim = claim_of_run(request, reader_.scene());
+    outcome_.claim.steps = outcome_.steps_total;
+    if (request.decided) request.decided->set_claim(outcome_.claim);
   }
 
-  /// False if it was stopped: what was found is then not all.
-  bool find_baseline() {
+  VerifyOutcome operator()() {
+    const Stopwatch watch;
+    if (!request_.only) look_at_files();  // otherwise whoever joins the windows does
     try {
-      const auto& pairs = verifier_->baseline(sequence_.x_t0());
-      if (stopped()) return false;
-      outcome_.baseline = pairs;
-    } catch (const std::length_error& error) {
-      throw InputError(sequence_.name_t0(), "", std::string("--only-new: ") + error.what());
+      verify_windows();
+    } catch (const Stopped&) {
+      outcome_.complete = false;
     }
-    outcome_.not_compared.baseline = outcome_.baseline.size();
-    return true;
+    if (request_.follow && ended_) look_at_files();  // they have grown
+    conclude();
+    outcome_.seconds = watch.seconds() - outcome_.read_seconds - outcome_.reproduce_seconds;
+    return std::move(outcome_);
   }
 
-  /// Reads the pairs of groups that are not compared.
-  void leave_out(const std::filesystem::path& file, const Mesh& mesh) {
-    groups_ = read_groups(file, mesh.vertex_count, names_of_frames(source_->bodies()));
-    for (VertexId v = 0; classes_ && v < mesh.vertex_count; ++v) {
-      const VertexId same = classes_->representative()[v];
-      if (groups_->exclusions.groups[v] == groups_->exclusions.groups[same]) continue;
-      throw InputError(file.string(), "",
-                       fmt::format("vertices {} and {} are merged; expected them in one group", same, v));
+ private:
+  void look_at_run() {
+    const RunLook look = reader_.look();
+    outcome_.steps_total = look.windows;
+    look_end_ = look.end.value_or(0);
+    reader_.look_for_expected();
+    outcome_.ending = ending_of(run_, log_);
+    if (!live_) note_lost_log();
+  }
+
+  void look_at_some() {
+    outcome_.steps_total = request_.only->end - request_.only->first;
+    outcome_.ending.emplace();
+  }
+
+  void verify_windows() {
+    if (request_.reproduce && !request_.decided) make_again();
+    if (request_.only && !skip_to_first()) return;
+    while (outcome_.complete) {
+      auto window = read_next();
+      if (window) read_to_ = window->end;
+      // A stop after the last window changes nothing.
+      if (!window || stopped() || !verify(*window)) break;
+      const bool last = request_.only && window->index + 1 >= request_.only->end;
+      if (enough() || last) break;
+      if (request_.reproduce && request_.decided) before_.emplace(std::move(*window), reader_.state());
     }
-    require_whole_cells(file, *groups_, mesh);
-    for (const auto& [a, b] : groups_->exclusions.pairs) {
-      outcome_.not_compared.excluded.push_back({groups_->names[a], groups_->names[b]});
+  }
+
+  /// Of some windows alone, the first of all still says how cells are grouped, and the one before them where they
+  /// begin. False if it was stopped.
+  bool skip_to_first() {
+    const Stopwatch watch;
+    const std::uint64_t first = request_.only->first;
+    if (first == 0) return true;
+    auto before = next_committed();
+    if (before && request_.windows != nullptr) request_.windows->push_back(before->group_hash);
+    if (before && !stopped()) group_cells(*before);
+    if (before && first > 1) {
+      reader_.skip_to(*request_.before);
+      before = next_committed();
+    }
+    if (before && again_) again_->continue_after(*before, reader_.state());
+    outcome_.read_seconds += watch.seconds();
+    return before && !stopped();
+  }
+
+  void group_cells(const RunWindow& first) {
+    verifier_.emplace(reader_.mesh(), first.lines ? beginning_of(*first.lines) : again_->beginning(), options());
+  }
+
+  void look_at_files() {
+    const Stopwatch watch;
+    try {
+      outcome_.inputs = run_facts(request_.frames[0], [this] { return stopped(); });
+    } catch (const Stopped&) {
+      stopped();
+    }
+    outcome_.read_seconds += watch.seconds();
+  }
+
+  std::optional<RunWindow> read_next() {
+    const Stopwatch watch;
+    auto window = request_.follow ? wait_for_next() : next_of_those_there();
+    outcome_.read_seconds += watch.seconds();
+    return window;
+  }
+
+  /// The next window; if the run is being written, only up to its end when it was opened.
+  std::optional<RunWindow> next_of_those_there() {
+    const bool enough = !request_.only && live_ && reader_.windows() >= outcome_.steps_total;
+    auto window = enough ? std::nullopt : next_committed();
+    ended_ = !window;
+    return window;
+  }
+
+  /// Checks whether the run is still being written before it reads, so that windows written just before the end are
+  /// seen.
+  std::optional<RunWindow> wait_for_next() {
+    constexpr auto pause = std::chrono::milliseconds(50);
+    while (!stopped()) {
+      live_ = is_locked(run_);
+      reader_.look_again();
+      if (auto window = next_committed()) return window;
+      if (!live_) return next_behind_the_last();
+      std::this_thread::sleep_for(pause);
+    }
+    return std::nullopt;
+  }
+
+  /// Retries, as windows that are not committed yet may be taken back while they are read.
+  std::optional<RunWindow> next_committed() {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (int more = 20;; --more) {
+      const std::uint64_t before = reader_.windows();
+      try {
+        return reader_.next_window();
+      } catch (const InputError&) {
+        live_ = live_ || is_locked(run_);
+        if (more == 0 || !live_ || reader_.windows() != before) throw;
+      }
+      std::this_thread::sleep_for(pause);
+      reader_.look_again();
     }
   }
 
-  void require_plane() const {
-    if (request_.dimension || outcome_.dimension == 3) return;
-    require_one_plane(sequence_.x_t0(), sequence_.x_t1(), sequence_.name_t1());
+  /// The next window when no process writes to the run any more; nothing if its log has no more.
+  std::optional<RunWindow> next_behind_the_last() {
+    log_ = read_log(run_);
+    outcome_.ending = ending_of(run_, log_);
+    note_lost_log();
+    reader_.expect(log_.known);
+    reader_.look_again();
+    auto window = next_committed();
+    ended_ = !window;
+    return window;
   }
 
-  /// Notes two equal frames in a row, which are usually a mistake in the files.
-  void note_rest() {
-    if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
-    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.name_t0(),
-                                   sequence_.name_t1(), sequence_.step() + 1));
+  /// Of a run that is being written, the log may not have its first line yet.
+  void note_lost_log() {
+    const auto note = note_of_lost_log(log_);
+    if (note && std::ranges::find(outcome_.notes, *note) == outcome_.notes.end()) outcome_.notes.push_back(*note);
   }
 
-  const Exclusions* exclusions() const { return groups_ ? &groups_->exclusions : nullptr; }
+  /// Builds the model of the scene, to integrate its windows again.
+  void make_again() {
+    again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
+  }
 
-  SequenceOptions options() {
-    SequenceOptions options;
+  /// Integrates the window again and gives it its world lines. False if it was stopped. What was decided elsewhere is
+  /// integrated only where a contact may be listed.
+  bool reproduce(RunWindow& window, const std::optional<StepResult>& decided) {
+    if (!request_.reproduce || (decided && !decided->touches() && !decided->first)) return true;
+    const Stopwatch watch;
+    if (!again_) make_again();
+    if (before_) again_->continue_after(before_->first, before_->second);
+    auto lines = again_->next(window, reader_.state());
+    outcome_.reproduce_seconds += watch.seconds();
+    if (lines) window.lines = std::move(lines);
+    return window.lines.has_value() && !stopped();
+  }
+
+  WindowOptions options() const {
+    WindowOptions options;
     options.dimension = outcome_.dimension;
-    options.at_rest = request_.constant_motion;
     options.threads = request_.threads;
+    options.initial = reader_.windows() <= 1;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
     options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
-    options.exclusions = exclusions();
-    options.only_new = request_.only_new;
-    options.first_step = request_.only ? request_.only->first : 0;
+    options.scripted = reader_.scene().labels;
+    options.exclusions = &reader_.scene().exclusions;
     options.stop = request_.stop;
     options.deadline = request_.deadline;
-    options.progress = [this](double share) {
-      const double steps = static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1));
-      tell("verify", std::min(1.0, (static_cast<double>(sequence_.step()) + share) / steps));
-    };
     return options;
   }
 
-  void verify() {
-    if (starts_chain(sequence_.step())) begin_chain();
-    if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
-    give_frames();
-    const StepResult result =
-        request_.decided ? request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr) : decide();
-    if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
-    outcome_.complete = result.complete;
-    add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
-    if (request_.open_proof && (result.complete || result.touches())) prove(result);
+  /// False if it was stopped before anything was decided.
+  bool verify(RunWindow& window) {
+    std::optional<StepResult> result;
+    if (request_.decided) result = request_.decided->result(window.index, reader_.mesh(), &window);
+    if (!reproduce(window, result)) return false;
+    if (outcome_.steps.empty()) outcome_.claim.from = window.begin;
+    outcome_.claim.to = window.end;
+    if (!result) result = decide(window);
+    if (request_.decisions != nullptr) request_.decisions->push_back(*result);
+    if (request_.windows != nullptr) {
+      if (window.index == 0) request_.windows->push_back(window.group_hash);
+      request_.windows->push_back(window.group_hash);
+    }
+    outcome_.complete = result->complete;
+    add_window(window, *result);
+    if (request_.open_proof && (result->complete || result->touches()) && goes_to_proof(*result)) {
+      prove(window, *result);
+    }
+    return true;
   }
 
-  void begin_chain() {
-    chain_proves_ = request_.open_proof && verifier_proves(request_);
-    if (proof_) proof_->begin_chain();
-    prover_.reset();
+  StepResult decide(const RunWindow& window) {
+    if (!verifier_) group_cells(window);
+    WindowOptions deciding = options();
+    deciding.progress = [this](double share) {
+      const double done = static_cast<double>(outcome_.steps.size()) + share;
+      tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
+    };
+    WindowResult result = verifier_->verify(*window.lines, deciding);
+    const bool goes_on = drop_met_at_begin(window, result);
+    std::optional<FirstInStep> first;
+    if (result.first) first = FirstInStep{result.first->contact, result.first->kind, result.first->lower()};
+    return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr};
   }
 
-  /// What other chains found does not count, as each may be decided by itself.
-  StepResult decide() {
-    StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
-    chain_proves_ = chain_proves_ && result.proof != nullptr;
-    return result;
+  void add_window(const RunWindow& window, const StepResult& result) {
+    const auto listed = [&](const FeatureContact& contact, ContactKind kind, double time) {
+      return listed_in_window(contact, kind, time, *window.lines, outcome_.dimension);
+    };
+    std::optional<ListedContact> first;
+    if (result.first) first = listed(result.first->contact, result.first->kind, result.first->time);
+    add(result, first, result.goes_on, [&](const FeatureContact& contact) {
+      const FirstInWindow found = ExactlyInWindow{&*window.lines, outcome_.dimension}(contact);
+      return listed(found.contact, found.kind, found.lower());
+    });
   }
 
-  static StepResult without_proof(StepResult result) {
-    result.proof.reset();
-    return result;
-  }
-
-  AnyQuery query(const FeatureContact& contact) const {
-    return query_of(contact, outcome_.dimension, sequence_.x_t0(), sequence_.x_t1());
-  }
-
-  ListedContact exactly(const FeatureContact& contact) const {
-    const FirstInStep found = first_in_step(contact, query(contact));
-    return listed(contact, found.kind, found.time);
-  }
-
-  std::optional<ListedContact> first_of(const StepResult& result) const {
-    if (!result.first) return std::nullopt;
-    return listed(result.first->contact, result.first->kind, result.first->time);
-  }
-
-  ListedContact listed(const FeatureContact& contact, ContactKind kind, double time) const {
-    const AnyQuery moving = query(contact);
-    std::array<Position, 4> x{};
-    for (std::size_t i = 0; i < moving.size(); ++i) x[i] = sample_between(moving.x_t0[i], moving.x_t1[i], time);
-    const std::span<const Position> corners(x.data(), moving.size());
-    return {contact, 0, kind, time, meeting_point(contact.pair, outcome_.dimension, corners), {}, {}};
-  }
-
-  void prove(const StepResult& result) {
-    const Stopwatch watch;
-    begin_proof();
+  void prove(RunWindow& window, const StepResult& result) {
     if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    if (!goes_to_proof(result)) return;
-    const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
-    const auto number = sequence_.step();
-    const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
+    const Stopwatch watch;
+    give_lines(window);
+    if (!proof_) {
+      outcome_.proof_begun = true;
+      proof_ = proof_of_run(request_.open_proof(outcome_.claim), reader_.scene(), outcome_.claim);
+    }
+    const MotionStep step{window.index, *window.lines, 0, window.group_hash};
     if (request_.decided) {
-      if (!take_proof(*proof_, step, result, verifier_->mesh())) refuse_frame();
+      if (!take_proof(*proof_, step, result, reader_.mesh())) refuse_window(window);
     } else if (result.touches()) {
       refute(*proof_, step, result);
     } else {
-      prove_untouched(step, result);
+      search_proof(*proof_, step, *verifier_, options());
     }
     witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
   }
 
-  void begin_proof() {
-    if (proof_) return;
-    outcome_.proof_begun = true;
-    const Mesh& mesh = verifier_->mesh();
-    proof_ = proof_of_frames(request_, outcome_.claim, mesh, classes_ ? &*classes_ : nullptr, labels_);
+  [[noreturn]] void refuse_window(const RunWindow& window) const {
+    throw InputError(trajectory_path(run_).string(), fmt::format("window {}", window.index + 1),
+                     "is not what was decided; expected the same run");
   }
 
-  void prove_untouched(const MotionStep& step, const StepResult& result) {
-    if (!verifier_proves(request_)) {
-      const WindowOptions options{verifier_->step_options(), {}, nullptr, &labels_};
-      if (!prover_) prover_.emplace(verifier_->mesh(), sequence_.x_t0(), options);
-      return search_proof(*proof_, step, *prover_, verifier_->step_options());
+  /// Streams world lines that are in no file to the checker, window by window.
+  void give_lines(RunWindow& window) {
+    if (request_.trajectory_pipe == nullptr) return;
+    request_.trajectory_pipe->drained();
+    if (!lines_) {
+      RunScene scene = reader_.scene();
+      scene.header.record = RecordMode::full;
+      lines_.emplace(request_.trajectory_pipe->sink(), scene);
     }
-    if (!result.proof) return note_no_proof();
-    proof_->write(step, *result.proof);
+    lines_->append_window({window.index, *window.lines, window.velocities, window.state, {}});
+    window.group_hash = lines_->open_window_hash();
+    lines_->commit();
   }
 
-  [[noreturn]] void refuse_frame() const {
-    throw InputError(sequence_.name_t1(), "",
-                     fmt::format("is not what step {} was decided for; expected the same files", sequence_.step() + 1));
+  /// Drops the pairs that were counted in the window before. Returns whether there are any. What that window found does
+  /// not count at the beginning of a task, which may be decided by itself.
+  bool drop_met_at_begin(const RunWindow& window, WindowResult& result) {
+    const bool any = starts_chain(window.index) ? window.index > 0 : meeting_at_end_;
+    const bool none = !outcome_.steps.empty() && !meeting_at_end_;
+    meeting_at_end_ = result.contact_count() > 0;
+    if (!any || !meeting_at_end_) return false;
+    const std::vector<Position> x = beginning_of(*window.lines);
+    const auto find = [&](const WorldLines& lines, std::size_t reports) -> Findings {
+      WindowOptions options = this->options();
+      options.first_only = options.first_only && reports > 0;
+      options.max_reports = reports;
+      return verifier_->verify(lines, options);
+    };
+    return drop_contacts_at_begin(
+        result, none, outcome_.dimension, x, options().max_reports,
+        [&] { return find(WorldLines::from_frames(x, x), 0); },
+        [&](std::size_t most) { return find(*window.lines, most); });
   }
 
   void conclude() {
     stopped();
-    const bool counted = sequence_.step_count().has_value();
-    if (!counted) count_steps();
-    set_verdict(counted ? outcome_.steps.size() == outcome_.steps_total : ended_);
-    outcome_.bodies = source_->bodies();
-    if (verifier_) list_contacts(verifier_->mesh(), names_of_frames(outcome_.bodies));
-    put_notes();
-    note_distance();
-    if (trajectory_ && !trajectory_->finished()) {
-      outcome_.notes.push_back(request_.trajectory->string() + " was not written: not all frames were read");
-    }
-    outcome_.inputs = source_->take_facts();
-    note_numbering();
-  }
-
-  void note_numbering() {
-    if (!outcome_.touches() && !outcome_.is_too_near()) return;
-    const auto is_obj = [](const FrameFacts& facts) { return facts.file.ends_with(".obj"); };
-    if (!std::ranges::any_of(outcome_.inputs, is_obj)) return;
-    outcome_.notes.emplace_back("vertices and cells count from 0 here; in OBJ files they count from 1");
-  }
-
-  /// Of a source that does not say how many frames it has.
-  void count_steps() {
-    outcome_.steps_total = outcome_.steps.size();
+    outcome_.steps_total = ended_ ? reader_.windows() : std::max(outcome_.steps_total, outcome_.steps.size());
     outcome_.claim.steps = outcome_.steps_total;
-    if (!request_.constant_motion) outcome_.claim.to = static_cast<double>(outcome_.steps_total);
+    outcome_.ending->time = ended_ ? read_to_ : std::max(look_end_, read_to_);
+    outcome_.ending->some_ended_early =
+        integrator::some_ended_early(outcome_.steps_total, outcome_.ending->time, reader_.header().window_length);
+    outcome_.ending->windows_total =
+        windows_total(*outcome_.ending, outcome_.steps_total, reader_.header().window_length);
+    outcome_.open_window = ended_ && !live_ && reader_.open_window().has_value();
+    if (live_) say_that_it_is_written();
+    // A run without committed windows proves nothing.
+    if (outcome_.steps.empty()) outcome_.complete = false;
+    set_verdict(ended_);
+    note_distance();
+    list_contacts(reader_.mesh(), log_.names);
   }
 
-  void put_notes() {
-    outcome_.notes = request_.order_notes;
-    if (request_.reading.given && outcome_.unreferenced_vertices > 0) {
-      outcome_.notes.push_back(fmt::format("{} of the {} vertices belong to no cell, and are not looked at",
-                                           outcome_.unreferenced_vertices, outcome_.vertices));
-    }
-    append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");
-    for (const std::string& note : source_->notes()) outcome_.notes.push_back(note);
-    const bool contact =
-        outcome_.initial_reports.empty() && outcome_.first && outcome_.first->time > 0 && outcome_.first->time < 1;
-    const bool near = outcome_.is_too_near() && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
-    if (contact || near) {
-      outcome_.notes.emplace_back(
-          contact ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
-                  : "the least distance is broken between two frames: straight lines are assumed there; finer frames "
-                    "tell more");
-    }
+  /// Notes whether the run is being written, but not if it was killed meanwhile.
+  void say_that_it_is_written() {
+    outcome_.ending->being_written = is_locked(run_);
+    outcome_.notes.push_back(fmt::format(
+        "another process writes to the run: this is about the {} windows that were committed so far{}",
+        outcome_.steps_total, request_.follow || request_.decided ? "" : "; --follow waits for the others"));
   }
 
-  std::unique_ptr<FrameSource> source_;
-  FrameSequence sequence_;  ///< reads from source_
-  std::optional<IdenticalVertices> classes_;
-  std::optional<Groups> groups_;  ///< with --ignore
-  std::optional<SequenceVerifier> verifier_;
-  CellLabels labels_;  ///< of the cells of verifier_
+  const std::filesystem::path& run_;
+  bool live_;  ///< another process writes to it
+  LogFacts log_;
+  SeriesReader reader_;
+  std::optional<WindowVerifier> verifier_;  ///< made from the first positions of the run
   std::unique_ptr<StepProofs> proof_;
-  std::optional<WindowVerifier> prover_;  ///< of the chain, set if verify_step cannot prove the request
-  std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
-  bool chain_proves_ = false;             ///< all steps of the chain so far have a proof
-  bool ended_ = false;                    ///< the last frame has been read
+  std::unique_ptr<WindowsAgain> again_;                      ///< with --reproduce
+  std::optional<std::pair<RunWindow, WindowState>> before_;  ///< with `decided`: the window before, as again_ needs it
+  std::optional<RunWriter> lines_;                           ///< of the run as if it were recorded in full
   bool witness_sought_ = false;
-  std::optional<TrajectoryFile> trajectory_;  ///< --trajectory
-  std::optional<FramesWriter> given_;         ///< what the checker reads on its way
+  bool meeting_at_end_ = false;        ///< something met in the window before
+  bool ended_ = false;                 ///< all windows have been read
+  double look_end_ = 0, read_to_ = 0;  ///< ends of the last window by a quick look, and of the last window read [s]
 };
 
 }  // namespace
 
-std::uint64_t VerifyOutcome::frame_count() const { return noli::frame_count(inputs); }
-
-std::string VerifyOutcome::frame_name(std::size_t k) const { return noli::frame_name(inputs, k); }
-
-void VerifyRequest::put_in_order() {
-  OrderedFrames in_order = order_frames(std::move(frames), order);
-  frames = std::move(in_order.frames);
-  ordered = std::move(in_order.how);
-  order_notes = std::move(in_order.notes);
+Claim claim_of_run(const VerifyRequest& request, const RunScene& scene) {
+  Claim claim;
+  claim.motion = "run";
+  claim.dimension = static_cast<int>(scene.header.dimension);
+  claim.strict = request.strict;
+  claim.distance = request.min_distance;
+  claim.ring = request.ring;
+  set_cells_of_run(claim, scene);
+  return claim;
 }
 
-std::optional<std::size_t> VerifyOutcome::last_for_distance() const {
-  const auto touching = std::ranges::find_if(steps, [](const StepCounts& step) { return step.touches(); });
-  const auto contact = static_cast<std::size_t>(touching - steps.begin()) + 1;
-  if (near) return std::min(near->step, contact);
-  return touching == steps.end() ? std::nullopt : std::optional(contact);
+void require_can_be_asked(const VerifyRequest& request, const RunReader& run) {
+  const std::string name = request.frames.at(0).string();
+  if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore ||
+      request.only_new) {
+    throw UsageError(
+        "--static, --merge-identical, --points, --dimension, --ignore, --only-new: are for frames; expected none of "
+        "them with a run");
+  }
+  if (run.header().record == RecordMode::frames && !request.reproduce) {
+    throw InputError(
+        name, "",
+        "only frames were recorded (\"record\": \"frames\"); expected world lines, which are what can be verified: "
+        "pass --reproduce to integrate the windows again, or put \"record\": \"full\" into the scene and run `noli "
+        "simulate SCENE.json -o RUN`");
+  }
+  if (run.mesh().cell_count() == 0) {
+    throw InputError(name, "", "the run has no cells; expected something that can touch");
+  }
 }
 
-bool VerifyOutcome::stop_for(const VerifyRequest& request) {
-  interrupted |= request.stop != nullptr && request.stop->load(std::memory_order_relaxed);
-  interrupted |= stop_asked() == StopReason::interrupted;
-  out_of_time |= stop_asked() == StopReason::out_of_time;
-  out_of_time |= request.deadline && std::chrono::steady_clock::now() >= *request.deadline;
-  return interrupted || out_of_time;
-}
-
-VerifyOutcome run_verify(const VerifyRequest& request) {
-  return request.run ? run_verify_motion(request) : SequenceVerification(request)();
-}
+VerifyOutcome verify_run(const VerifyRequest& request) { return RunVerification(request)(); }
 
 }  // namespace noli
