@@ -77,10 +77,11 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
+  result.rests = std::ranges::equal(x_t0, x_t1);
   meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
   result.goes_on = any_at_begin && meeting_at_end_ && drop_met_at_begin(x_t0, x_t1, none_at_begin, result);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
-  if (result.touches() && !std::ranges::equal(x_t0, x_t1)) {
+  if (result.touches() && !result.rests) {
     rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
   }
   if (last_) last_->assign(x_t1.begin(), x_t1.end());

@@ -111,7 +111,8 @@ class SequenceVerification : private Verification {
     if (request_.merge_identical) find_classes();
     if (request_.only) skip_to_first();
     while (!stopped() && outcome_.complete) {
-      if (!read_next(sequence_)) {
+      skip_decided();
+      if (stopped() || !read_next(sequence_)) {
         ended_ = outcome_.complete && !stopped();
         break;
       }
@@ -119,7 +120,6 @@ class SequenceVerification : private Verification {
       if (stopped()) outcome_.complete = false;  // in the first step, the claim may not be known then
       if (!outcome_.complete) break;
       require_plane();
-      note_rest();
       write_frames();
       verify();
       if (enough() || (request_.only && sequence_.step() + 1 >= request_.only->end)) break;
@@ -133,6 +133,22 @@ class SequenceVerification : private Verification {
     begin();
     if (stopped()) outcome_.complete = false;
     if (outcome_.complete) sequence_.skip_to(request_.only->first);
+  }
+
+  /// Steps that were decided elsewhere need their frames again only for a proof, and where a contact is listed.
+  void skip_decided() {
+    if (!request_.decided || request_.open_proof || outcome_.steps.empty() || !source_->may_skip()) return;
+    for (std::size_t step = outcome_.steps.size(); step < outcome_.steps_total && !stopped(); ++step) {
+      StepResult result = request_.decided->result(step, verifier_->mesh(), nullptr);
+      if (!result.complete || result.first || result.touches()) {
+        decided_ = std::move(result);
+        break;
+      }
+      if (result.rests) note_rest(step);
+      add(result, std::nullopt, result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
+      tell("verify", static_cast<double>(step + 1) / static_cast<double>(outcome_.steps_total));
+    }
+    sequence_.skip_to(outcome_.steps.size());
   }
 
   /// Whatever the verdict, the file of --trajectory has all frames.
@@ -274,10 +290,10 @@ class SequenceVerification : private Verification {
   }
 
   /// Notes two equal frames in a row, which are usually a mistake in the files.
-  void note_rest() {
-    if (request_.constant_motion || !std::ranges::equal(sequence_.x_t0(), sequence_.x_t1())) return;
-    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", sequence_.name_t0(),
-                                   sequence_.name_t1(), sequence_.step() + 1));
+  void note_rest(std::size_t step) {
+    if (request_.constant_motion) return;
+    at_rest_.push_back(fmt::format("{} and {} are equal: nothing moves in step {}", source_->name(step),
+                                   source_->name(step + 1), step + 1));
   }
 
   const Exclusions* exclusions() const { return groups_ ? &groups_->exclusions : nullptr; }
@@ -306,10 +322,10 @@ class SequenceVerification : private Verification {
     if (starts_chain(sequence_.step())) begin_chain();
     if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
     give_frames();
-    const StepResult result =
-        request_.decided ? request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr) : decide();
+    const StepResult result = request_.decided ? take_decided() : decide();
     if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
+    if (result.rests) note_rest(sequence_.step());
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
     if (request_.open_proof && (result.complete || result.touches())) prove(result);
   }
@@ -325,6 +341,11 @@ class SequenceVerification : private Verification {
     StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
     chain_proves_ = chain_proves_ && result.proof != nullptr;
     return result;
+  }
+
+  StepResult take_decided() {
+    if (auto known = std::exchange(decided_, std::nullopt)) return std::move(*known);
+    return request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr);
   }
 
   static StepResult without_proof(StepResult result) {
@@ -453,6 +474,7 @@ class SequenceVerification : private Verification {
   std::unique_ptr<StepProofs> proof_;
   std::optional<WindowVerifier> prover_;  ///< of the chain, set if verify_step cannot prove the request
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
+  std::optional<StepResult> decided_;     ///< of the next step, if it is known already
   bool chain_proves_ = false;             ///< all steps of the chain so far have a proof
   bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;

@@ -272,7 +272,7 @@ class RunVerification : private Verification {
     const bool goes_on = drop_met_at_begin(window, result);
     std::optional<FirstInStep> first;
     if (result.first) first = FirstInStep{result.first->contact, result.first->kind, result.first->lower()};
-    return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr};
+    return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr, false};
   }
 
   void add_window(const RunWindow& window, const StepResult& result) {

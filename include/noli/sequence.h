@@ -75,6 +75,7 @@ struct StepResult : Findings {
   std::optional<FirstInStep> first;
   bool goes_on = false;  ///< features met at the beginning of the step: they were counted before, and may be `first`
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions or only_new
+  bool rests = false;                      ///< between two frames: they are equal
 };
 
 class SequenceVerifier {

@@ -41,6 +41,8 @@ class FrameSource {
   /// Throws InputError, also when it is no longer what was looked at; Stopped.
   virtual std::optional<Frame> read(std::size_t k) = 0;
   virtual bool can_begin_again() const = 0;
+  /// Once all were looked at and one has been read: whether facts() and notes() stay as they are if no other is read.
+  virtual bool may_skip() const { return false; }
 
   /// What was looked at, in the order of time: one per file.
   virtual const std::vector<FrameFacts>& facts() const = 0;

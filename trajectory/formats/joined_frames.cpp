@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <noli/errors.h>
+#include "trajectory/cells.h"
 #include "trajectory/formats/open_frames.h"
 
 namespace noli {
@@ -81,6 +82,10 @@ void JoinedFrames::append(std::size_t part, const Frame& frame, Frame& all) {
 
 bool JoinedFrames::can_begin_again() const {
   return std::ranges::all_of(parts_, [](const Part& part) { return part.source->can_begin_again(); });
+}
+
+bool JoinedFrames::may_skip() const {
+  return std::ranges::all_of(parts_, [](const Part& part) { return part.source->may_skip(); });
 }
 
 const std::vector<FrameFacts>& JoinedFrames::facts() const {

@@ -24,6 +24,7 @@ class JoinedFrames : public FrameSource {
   void look_at(std::size_t k) override;
   std::optional<Frame> read(std::size_t k) override;
   bool can_begin_again() const override;
+  bool may_skip() const override;
   const std::vector<FrameFacts>& facts() const override;
   std::vector<std::string> notes() const override;
   std::vector<FrameBody> bodies() const override { return bodies_; }

@@ -111,6 +111,54 @@ TEST_F(Shards, WithoutProofsGiveNoContact) {
   EXPECT_EQ(process.verdict_line().substr(0, 10), "NO CONTACT");
 }
 
+/// Without a proof, `noli merge` reads only the frames that it says something about.
+class UnprovedShards : public Shards {
+ protected:
+  void expect_answer_of_one_process(const Words& frames, int exit_code) const {
+    const Words asked = joined(frames, {"--keep-going", "--no-check"});
+    const Process one = run_noli(joined({"verify", "--force", "--json", folder.path("one.json")}, asked));
+    EXPECT_EQ(one.exit_code, exit_code) << one.err;
+    EXPECT_EQ(part(asked, "1/1").exit_code, exit_code);
+    const Process all = run_noli({"merge", shards(), "--force", "--json", folder.path("all.json")});
+    expect_same_answer(one, all);
+  }
+};
+
+TEST_F(UnprovedShards, HaveTheAnswerOfOneProcess) { expect_answer_of_one_process(write_motion(40), 0); }
+
+TEST_F(UnprovedShards, HaveTheContactsOfOneProcess) {
+  expect_answer_of_one_process(write_motion(60, {5, 16, 17, 32, 33, 34, 59}), 1);
+}
+
+TEST_F(UnprovedShards, SayWhereNothingMoves) {
+  Words frames = write_motion(40);
+  for (const std::size_t k : {std::size_t{3}, std::size_t{17}, std::size_t{39}}) {
+    fs::copy_file(frames[k - 1], frames[k], fs::copy_options::overwrite_existing);
+  }
+  expect_answer_of_one_process(frames, 0);
+  EXPECT_NE(bytes_of(folder.path("all.json")).find("nothing moves in step 39"), std::string::npos);
+}
+
+TEST_F(UnprovedShards, KnowThePolygonsOfAllFrames) {
+  Words frames;
+  for (int k = 0; k < 20; ++k) {
+    const std::string bent = std::to_string(k == 18 ? 0.5 : 0.125);
+    frames.push_back(folder.write("quad_" + std::to_string(k) + ".obj",
+                                  "v 0 0 0\nv 1 0 0\nv 1 1 " + bent + "\nv 0 1 0\nf 1 2 3 4\n"));
+  }
+  expect_answer_of_one_process(frames, 0);
+  EXPECT_NE(bytes_of(folder.path("all.json")).find("polygon"), std::string::npos);
+}
+
+TEST_F(UnprovedShards, NameTheBodiesOfOneProcess) {
+  for (int k = 0; k < 20; ++k) {
+    const std::string z = k == 12 ? "-1" : "1";
+    folder.write("body_" + std::to_string(k) + ".obj", "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf 1 2 3\n");
+  }
+  const std::string floor = folder.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n");
+  expect_answer_of_one_process({"--body", "body=" + folder.path("body_*.obj"), "--obstacle", floor}, 1);
+}
+
 TEST_F(Shards, AreNotMadeTwice) {
   const Words asked = write_motion(40);
   ASSERT_EQ(part(asked, "2/3").exit_code, 0);
