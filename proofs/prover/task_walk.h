@@ -78,17 +78,26 @@ class TaskWalk {
     traversal.defer(std::max(static_cast<std::uint32_t>(cells / share), Positions::least_grain), tasks_);
     top_.finished = !stop_.raised() && top(traversal);
     outcomes_.resize(tasks_.size());
+    end_ = tasks_.size();
+  }
+
+  /// Keeps the tasks of this part alone. What was found in the top belongs to the first part.
+  void keep(const StepPart& part) {
+    first_ = tasks_.size() * part.index / part.of;
+    end_ = tasks_.size() * (part.index + 1) / part.of;
+    if (part.index > 0) top_.tally = none_;
   }
 
   /// Settles the tasks; calls done(task) after each, from any thread. Then adds up the findings.
   template <class Done>
   void run(const Done& done) {
-    parallel_for(tasks_.size(), options_.threads, [&](std::size_t i) {
+    parallel_for(task_count(), options_.threads, [&](std::size_t k) {
+      const std::size_t i = first_ + k;
       if (i > first_found_) return;
       run_task(i);
       done(i);
     });
-    for (std::size_t i = 0; i < outcomes_.size() && i <= first_found_; ++i) {
+    for (std::size_t i = first_; i < end_ && i <= first_found_; ++i) {
       top_.tally += outcomes_[i]->tally;
       top_.finished = top_.finished && outcomes_[i]->finished;
     }
@@ -97,6 +106,9 @@ class TaskWalk {
   /// The tally of everything, and the tokens of the top; the tokens of each task follow at tokens_before.
   Outcome& sum() { return top_; }
   const std::vector<Deferred>& tasks() const { return tasks_; }
+  /// Those that are kept.
+  std::size_t first_task() const { return first_; }
+  std::size_t task_count() const { return end_ - first_; }
   Outcome& outcome(std::size_t task) { return *outcomes_[task]; }
 
  private:
@@ -119,6 +131,7 @@ class TaskWalk {
   const StopSignal& stop_;
   const typename Positions::Tally& none_;
   std::vector<Deferred> tasks_;
+  std::size_t first_ = 0, end_ = 0;                 ///< the tasks that are kept
   std::vector<std::unique_ptr<Outcome>> outcomes_;  ///< of the tasks that have begun
   std::atomic<std::size_t> first_found_ = std::numeric_limits<std::size_t>::max();
   Outcome top_;  ///< of the walk over the top, then the sum of all

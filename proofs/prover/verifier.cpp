@@ -70,7 +70,8 @@ class Verification {
     if (options.chain != nullptr) memory_ = std::move(*options.chain);
     prepared_ = dynamic_cast<Prepared<Dim>*>(memory_.get());
     if (prepared_ != nullptr) {
-      prepared_->next(mesh, x_t0, x_t1, options.threads);
+      const bool same_step = options.part.of > 1;
+      if (!same_step) prepared_->next(mesh, x_t0, x_t1, options.threads);
       return;
     }
     auto made = std::make_unique<Prepared<Dim>>(mesh, x_t0, x_t1, options);
@@ -84,7 +85,8 @@ class Verification {
     Progress progress(options_);
     const Group root = prepared_->hierarchy().root();
     walk.cut(root.count, [&](auto& top) { return top.run({root, root}); });
-    progress.begin(0, 1, walk.tasks().size());
+    walk.keep(options_.part);
+    progress.begin(0, 1, walk.task_count());
     walk.run([&](std::size_t /*task*/) { progress.task_done(); });
     auto& sum = walk.sum();
     VerifyResult result{sum.tally.findings(sum.finished), std::nullopt, nullptr};
@@ -104,14 +106,19 @@ class Verification {
   std::shared_ptr<const StepProof> prove(TaskWalk<Straight<Dim>, Out>& walk) const {
     auto proof = std::make_shared<StepProof>();
     const auto order = prepared_->hierarchy().leaf_cells();
-    proof->leaf_cells.assign(order.begin(), order.end());
+    const auto& [index, of] = options_.part;
+    if (index == 0) proof->leaf_cells.assign(order.begin(), order.end());
+    const auto& tasks = walk.tasks();
+    const std::size_t first = walk.first_task(), count = walk.task_count(), end = first + count;
     JoinedTokens& all = proof->tokens;
     all.tokens = std::move(walk.sum().out.tokens);
-    for (const Deferred& task : walk.tasks()) all.places.push_back(task.tokens_before);
-    all.inserted.resize(walk.tasks().size());
+    all.begin = first == 0 ? 0 : tasks[first - 1].tokens_before;
+    if (index + 1 < of) all.end = end == 0 ? 0 : tasks[end - 1].tokens_before;
+    for (std::size_t i = first; i < end; ++i) all.places.push_back(tasks[i].tokens_before);
+    all.inserted.resize(count);
     std::atomic<bool> whole = true;
-    parallel_for(walk.tasks().size(), options_.threads, [&](std::size_t i) {
-      if (whole && !close_open_parts(walk.outcome(i).out, all.inserted[i])) whole = false;
+    parallel_for(count, options_.threads, [&](std::size_t i) {
+      if (whole && !close_open_parts(walk.outcome(first + i).out, all.inserted[i])) whole = false;
     });
     return whole ? proof : nullptr;
   }

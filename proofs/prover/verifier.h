@@ -54,6 +54,12 @@ namespace noli {
 
 class Baseline;
 
+/// One of several parts of the work on one step, 0 to `of` - 1, each with about as many obligations. What all parts
+/// find and prove, in this order, is what is found and proved in the step.
+struct StepPart {
+  std::uint32_t index = 0, of = 1;
+};
+
 struct VerifyOptions {
   int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is ignored
   int threads = 0;          ///< 0: all there are
@@ -70,11 +76,13 @@ struct VerifyOptions {
   /// What the step before left, and then this one leaves; nothing at the beginning of a chain. All steps of a chain
   /// have the same mesh, `dimension` and `strict`. It may change `obligations`, `cell_pairs`, `stages` and the proof.
   std::unique_ptr<ChainMemory>* chain = nullptr;
+  /// Only this part of the step; not with `first_only`. `chain` then has what another part of this step left.
+  StepPart part = {};
 };
 
 /// The proof that nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
 struct StepProof {
-  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree()
+  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree(); of a step's parts, the first one has it
   JoinedTokens tokens;
 };
 

@@ -52,7 +52,8 @@ class ProofFile {
 
   /// Adds blocks of a step that another file has: STEP first, as step_payload() gives it.
   void append(FourLetters kind, std::string_view payload) { blocks_.append(kind, payload); }
-  static constexpr FourLetters step_kind = four_letters("STEP"), tree_kind = four_letters("TREE");
+  static constexpr FourLetters step_kind = four_letters("STEP"), tree_kind = four_letters("TREE"),
+                               tokens_kind = four_letters("TOKS");
   /// The payload of a STEP block, for begin_step() with the same arguments.
   std::string step_payload(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
                            const std::optional<Sha256Digest>& hash) const;
@@ -64,7 +65,7 @@ class ProofFile {
   void begin_step(std::uint64_t number, Kind kind, const WorldLines& lines, double shift,
                   const std::optional<Sha256Digest>& hash = {});
   void tree(std::string_view payload) { blocks_.append(tree_kind, payload); }
-  void tokens(std::string_view payload) { blocks_.append(four_letters("TOKS"), payload); }
+  void tokens(std::string_view payload) { blocks_.append(tokens_kind, payload); }
   /// All tokens of a step.
   void tokens(const JoinedTokens& all);
   /// All tokens that `make` passes on. If it returns false or throws, the step is dropped.

@@ -80,13 +80,13 @@ void Tokens::give(std::size_t begin, std::size_t end, const std::function<void(s
 }
 
 void JoinedTokens::give(const std::function<void(std::string_view)>& take) const {
-  std::size_t from = 0;
+  std::size_t from = begin;
   for (std::size_t i = 0; i < places.size(); ++i) {
     tokens.give(from, places[i], take);
     inserted[i].give(take);
     from = places[i];
   }
-  tokens.give(from, tokens.place(), take);
+  tokens.give(from, end.value_or(tokens.place()), take);
 }
 
 void Tokens::direction(const std::array<Integer, 3>& n) {

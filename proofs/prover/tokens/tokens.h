@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -144,8 +145,10 @@ struct NoTokens {
 /// Tokens, with others inserted.
 struct JoinedTokens {
   Tokens tokens;
-  std::vector<std::size_t> places;     ///< in the tokens, ascending: where the others are inserted
-  std::vector<JoinedTokens> inserted;  ///< one for each place
+  std::vector<std::size_t> places;      ///< in the tokens, ascending: where the others are inserted
+  std::vector<JoinedTokens> inserted;   ///< one for each place
+  std::size_t begin = 0;                ///< the tokens before it do not count
+  std::optional<std::size_t> end = {};  ///< nor those from here on
 
   void give(const std::function<void(std::string_view)>& take) const;
 };
