@@ -35,6 +35,11 @@ class DecidedSteps {
   /// The largest least distance at the beginning of that step, where it was looked for.
   virtual std::optional<LargestDistance> largest_distance() = 0;
 
+  /// Whether the step was decided in parts. blocks() then gives its tree and its tokens in pieces, and no witness.
+  virtual bool are_parts() const { return false; }
+  /// The first contact of each part that has one; result() gives none.
+  virtual std::vector<FirstInStep> firsts() const { return {}; }
+
   /// A folder with room for about as much as the proof takes.
   virtual std::filesystem::path scratch() const = 0;
 

@@ -88,6 +88,20 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   return result;
 }
 
+StepResult SequenceVerifier::part_of_step(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                                          const StepPart& part, bool prove) {
+  VerifyOptions options = step_options();
+  options.prove = prove;
+  options.part = part;
+  options.chain = &chain_;
+  options.progress = options_.progress;
+  VerifyResult found = verify_between(x_t0, x_t1, options);
+  StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
+  result.rests = std::ranges::equal(x_t0, x_t1);
+  if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
+  return result;
+}
+
 /// If the step that comes is another attempt at the last one, what that one met counts as never seen.
 void SequenceVerifier::take_back(std::span<const Position> x_t0) {
   const auto rejected = std::exchange(rejected_, std::nullopt);

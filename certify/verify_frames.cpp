@@ -20,6 +20,7 @@
 #include "certify/process/unfinished_file.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
+#include "certify/step_parts.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "proofs/prover/chain.h"
@@ -319,6 +320,7 @@ class SequenceVerification : private Verification {
   }
 
   void verify() {
+    if (request_.parts != nullptr) return verify_parts();
     if (starts_chain(sequence_.step())) begin_chain();
     if (request_.open_proof && verifier_proves(request_) && request_.open_proof_at_once) begin_proof();
     give_frames();
@@ -328,6 +330,17 @@ class SequenceVerification : private Verification {
     if (result.rests) note_rest(sequence_.step());
     add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
     if (request_.open_proof && (result.complete || result.touches())) prove(result);
+  }
+
+  void verify_parts() {
+    outcome_.inputs = source_->facts();
+    while (const auto part = request_.parts->next()) {
+      const StepResult result =
+          verifier_->part_of_step(sequence_.x_t0(), sequence_.x_t1(), *part, request_.parts->are_proved());
+      outcome_.complete = result.complete && !stopped();
+      if (!outcome_.complete) return;
+      request_.parts->take(*part, result, outcome_);
+    }
   }
 
   void begin_chain() {
@@ -345,7 +358,11 @@ class SequenceVerification : private Verification {
 
   StepResult take_decided() {
     if (auto known = std::exchange(decided_, std::nullopt)) return std::move(*known);
-    return request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr);
+    StepResult result = request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr);
+    if (request_.decided->are_parts()) {
+      result.first = noli::first_of(request_.decided->firsts(), outcome_.dimension, sequence_.x_t0(), sequence_.x_t1());
+    }
+    return result;
   }
 
   static StepResult without_proof(StepResult result) {
@@ -383,7 +400,9 @@ class SequenceVerification : private Verification {
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
-    if (request_.decided) {
+    if (request_.decided && request_.decided->are_parts()) {
+      join_parts(step, result);
+    } else if (request_.decided) {
       if (!take_proof(*proof_, step, result, verifier_->mesh())) refuse_frame();
     } else if (result.touches()) {
       refute(*proof_, step, result);
@@ -392,6 +411,11 @@ class SequenceVerification : private Verification {
     }
     witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  void join_parts(const MotionStep& step, const StepResult& result) {
+    if (result.touches()) return refute(*proof_, step, result);
+    if (!proof_->join(step, [this](const auto& take) { request_.decided->blocks(take); })) note_no_proof();
   }
 
   void begin_proof() {

@@ -144,6 +144,9 @@ ExitCode run(VerifyArguments& arguments) {
   if (request.trajectory && request.run) {
     throw UsageError("--trajectory: is for frames; a run has its trajectory.blocks");
   }
+  if (request.divide && arguments.shard.empty() && !Ranks::is_mpi_job()) {
+    throw UsageError("--divide: is for several processes; expected --shard K/N or mpirun with it");
+  }
   request.live = request.run && is_locked(request.frames[0]);
   request.prepare_to_reproduce();
   const auto ranks = arguments.shard.empty() ? Ranks::of_this_job() : nullptr;
@@ -202,6 +205,9 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       .add_option("-o,--output", arguments.shards,
                   "The folder for what --shard or ranks of mpirun find; made if it is not there")
       ->type_name("SHARDS");
+  command.add_flag("--divide", request.divide,
+                   fmt::format("For two frames of a huge mesh: --shard or mpirun divide the one step, into {} tasks",
+                               parts_of_step));
   add_threads_option(command, request.threads);
   command
       .add_option("--max-reports", request.max_reports,

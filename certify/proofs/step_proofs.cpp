@@ -68,6 +68,19 @@ bool StepProofs::copy(const MotionStep& step, const BlocksOfStep& blocks) {
   return any;
 }
 
+bool StepProofs::join(const MotionStep& step, const BlocksOfStep& parts) {
+  bool any = false;
+  const std::function<void(std::string_view)> put = [this](std::string_view payload) { file_.tokens(payload); };
+  TokenBlocks tokens(put);
+  parts([&](FourLetters kind, std::string_view payload) {
+    if (!std::exchange(any, true)) begin(step, ProofFile::Kind::proof);
+    kind == ProofFile::tree_kind ? file_.tree(payload) : tokens(payload);
+  });
+  tokens.flush();
+  if (any) commit();
+  return any;
+}
+
 bool StepProofs::refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings) {
   return write_witness(step, witness_of(what(step), first, findings.initial_reports, findings.reports));
 }

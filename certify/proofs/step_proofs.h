@@ -55,6 +55,10 @@ class StepProofs {
   /// when they are about another motion.
   bool copy(const MotionStep& step, const BlocksOfStep& blocks);
 
+  /// Joins the tree and the tokens of a step that was proved in parts, and commits them. Returns false if `parts`
+  /// passes on no block.
+  bool join(const MotionStep& step, const BlocksOfStep& parts);
+
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.
   bool refute(const MotionStep& step, const std::optional<FeatureContact>& first, const Findings& findings);
   /// The same for a step in which something comes nearer than the least distance.

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <noli/errors.h>
+#include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
+#include "certify/step_parts.h"
+#include "proofs/prover/tokens/proof_file.h"
 
 namespace noli {
 namespace {
@@ -14,6 +17,7 @@ constexpr const char* remedy = "run `noli verify --shard` again: it does what is
 }  // namespace
 
 StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) {
+  if (divided_) return sum_of_parts(mesh);
   if (!shard_ || step / steps_of_chain != task_ || step <= step_) open(step / steps_of_chain);
   step_ = step;
   return reading(file(), [&] {
@@ -27,11 +31,27 @@ StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const Run
   });
 }
 
+StepResult DecidedShards::sum_of_parts(const Mesh& mesh) {
+  std::vector<StepResult> parts;
+  parts_are_proved_ = true;
+  for (std::uint64_t task = 0; task < parts_of_step; ++task) {
+    open(task);
+    reading(file(), [&] {
+      parts.push_back(step_of_json(shard_->head().at("steps").at(0), mesh, {}));
+      if (shard_->head().at("unproved").get<bool>()) parts_are_proved_ = false;
+    });
+    if (parts.back().first) firsts_.push_back(*parts.back().first);
+  }
+  return sum_of(std::move(parts), max_reports_);
+}
+
 void DecidedShards::open(std::uint64_t task) {
   if (!folder_.has(task)) {
+    const std::string what =
+        divided_ ? fmt::format("part {} of {}", task + 1, parts_of_step)
+                 : fmt::format("{}s {} to {}", step_word(), task * steps_of_chain + 1, (task + 1) * steps_of_chain);
     throw InputError(folder_.path().string(), "",
-                     fmt::format("{} is missing ({}s {} to {}); {}", folder_.shard(task).filename().string(),
-                                 step_word(), task * steps_of_chain + 1, (task + 1) * steps_of_chain, remedy));
+                     fmt::format("{} is missing ({}); {}", folder_.shard(task).filename().string(), what, remedy));
   }
   task_ = task;
   shard_.emplace(folder_.shard(task), folder_.request_hash(), task);
@@ -60,7 +80,13 @@ void DecidedShards::require_window(const RunWindow& window) {
 }
 
 void DecidedShards::blocks(const std::function<void(FourLetters, std::string_view)>& take) {
-  shard_->blocks(step_, take);
+  if (!divided_) return shard_->blocks(step_, take);
+  for (std::uint64_t task = 0; task < parts_of_step && parts_are_proved_; ++task) {
+    open(task);
+    shard_->blocks(0, [&](FourLetters kind, std::string_view payload) {
+      if (kind != ProofFile::step_kind) take(kind, payload);
+    });
+  }
 }
 
 std::optional<ListedNear> DecidedShards::near(const Mesh& mesh) {

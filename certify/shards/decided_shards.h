@@ -3,6 +3,7 @@
 // The steps that shards decided, read one shard at a time.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +18,17 @@ namespace noli {
 
 class DecidedShards : public DecidedSteps {
  public:
-  /// `of_run`: they are about windows.
-  DecidedShards(ShardFolder folder, bool of_run) : folder_(std::move(folder)), of_run_(of_run) {}
+  /// `request`: the one of the folder.
+  DecidedShards(ShardFolder folder, const VerifyRequest& request)
+      : folder_(std::move(folder)),
+        of_run_(request.run),
+        divided_(request.divide),
+        max_reports_(std::max(request.max_reports, std::size_t{1})) {}
 
   StepResult result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) override;
   void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
+  bool are_parts() const override { return divided_; }
+  std::vector<FirstInStep> firsts() const override { return firsts_; }
   std::optional<ListedNear> near(const Mesh& mesh) override;
   std::optional<LargestDistance> largest_distance() override;
   std::filesystem::path scratch() const override { return folder_.path(); }
@@ -29,6 +36,7 @@ class DecidedShards : public DecidedSteps {
   void set_claim(const Claim& claim) override;
 
  private:
+  StepResult sum_of_parts(const Mesh& mesh);
   void open(std::uint64_t task);
   void require_inputs() const;
   void require_window(const RunWindow& window);
@@ -37,13 +45,16 @@ class DecidedShards : public DecidedSteps {
   const char* step_word() const { return of_run_ ? "window" : "step"; }
 
   ShardFolder folder_;
-  bool of_run_;
+  bool of_run_, divided_;
+  std::size_t max_reports_;
   Json claim_;
   std::vector<FrameFacts> files_;
   std::optional<ShardReader> shard_;
   std::uint64_t task_ = 0, step_ = 0;
   std::string first_window_;  ///< its hash
   StepTimes times_;           ///< of that step
+  std::vector<FirstInStep> firsts_;
+  bool parts_are_proved_ = false;
 };
 
 }  // namespace noli

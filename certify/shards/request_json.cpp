@@ -104,6 +104,7 @@ Json request_json(const VerifyRequest& request) {
           {"static", request.constant_motion},
           {"merge_identical", request.merge_identical},
           {"only_new", request.only_new},
+          {"divide", request.divide},
           {"min_distance", request.min_distance},
           {"ring", request.ring},
           {"ignore", ignore_json(request)},
@@ -129,6 +130,7 @@ VerifyRequest request_of_json(const Json& json) {
   request.constant_motion = json.at("static").get<bool>();
   request.merge_identical = json.at("merge_identical").get<bool>();
   request.only_new = json.at("only_new").get<bool>();
+  request.divide = json.at("divide").get<bool>();
   request.min_distance = between(json.at("min_distance"), 0.0, std::numeric_limits<double>::max());
   request.ring = between(json.at("ring"), std::uint32_t{1}, std::uint32_t{255});
   if (!json.at("ignore").is_null()) request.ignore = unescaped(json.at("ignore").at("file").get<std::string>());

@@ -37,6 +37,19 @@ void copy_steps(const fs::path& proof, BlockWriter& to) {
   }
 }
 
+/// `rest` writes what comes behind the head.
+template <class Rest>
+void write(const fs::path& file, const Json& head, const Rest& rest) {
+  const UnfinishedFile part(file);
+  {
+    BlockWriter writer(std::make_unique<FileSink>(part.path(), FileSink::Open::create), content);
+    writer.append(task_kind, head.dump());
+    writer.commit();
+    rest(writer);
+  }
+  part.finish();
+}
+
 std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {
   if (!proof) return 0;
   return BlockReader(*proof, ProofFile::content).look_at_commits().count - 1;
@@ -53,15 +66,21 @@ Json shared_claim_json(Claim claim) {
 }
 
 void write_shard(const fs::path& file, Json head, const std::optional<fs::path>& proof) {
-  const UnfinishedFile part(file);
   head["groups"] = groups_of_steps(proof);
-  {
-    BlockWriter writer(std::make_unique<FileSink>(part.path(), FileSink::Open::create), content);
-    writer.append(task_kind, head.dump());
-    writer.commit();
+  write(file, head, [&](BlockWriter& writer) {
     if (proof) copy_steps(*proof, writer);
-  }
-  part.finish();
+  });
+}
+
+void write_shard(const fs::path& file, Json head, const StepProof* part) {
+  head["groups"] = part == nullptr ? 0 : 1;
+  write(file, head, [&](BlockWriter& writer) {
+    if (part == nullptr) return;
+    writer.append(ProofFile::step_kind, std::string(sizeof(std::uint64_t), '\0'));
+    if (!part->leaf_cells.empty()) writer.append(ProofFile::tree_kind, encoded_tree(part->leaf_cells));
+    part->tokens.give([&](std::string_view piece) { writer.append(ProofFile::tokens_kind, piece); });
+    writer.commit();
+  });
 }
 
 ShardReader::ShardReader(const fs::path& file, const std::string& request_hash, std::uint64_t task)

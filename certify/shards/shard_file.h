@@ -7,6 +7,9 @@
 //   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, touch, ends,
 //             near, unproved, largest_distance, steps, and what they were made from (shard_motion.h): files or windows
 //
+// A part of a divided step has one group with its tokens: STEP with nothing but the step's number, TREE in the first
+// part, and TOKS with the pieces that are joined for the proof.
+//
 // `groups` says how many groups of steps follow, so a shard that was cut off is noticed before it is used.
 #pragma once
 
@@ -22,6 +25,7 @@
 #include <noli/frames.h>
 #include <noli/proof.h>
 #include "certify/json.h"
+#include "proofs/prover/verifier.h"
 #include "trajectory/blocks/block_file.h"
 
 namespace noli {
@@ -46,6 +50,8 @@ Json shared_claim_json(Claim claim);
 void write_shard(const std::filesystem::path& file, Json head, const std::optional<std::filesystem::path>& proof);
 
 class ShardReader;
+
+void write_shard(const std::filesystem::path& file, Json head, const StepProof* part);
 
 /// The name of the first of these files that is not the one that the shard was made from; nothing if all are. `files`:
 /// all files of the frames, those that the shard was made from looked at. Throws InputError.

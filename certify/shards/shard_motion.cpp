@@ -9,6 +9,7 @@
 
 #include <noli/errors.h>
 #include "certify/process/hdf5_frames.h"
+#include "certify/proofs/prove_frames.h"
 #include "certify/shards/request_json.h"
 #include "certify/simulate/windows_again.h"
 #include "certify/verification.h"
@@ -30,6 +31,13 @@ void require_files(const VerifyRequest& request) {
       std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
   if (request.reading.given || !files) {
     throw UsageError("each part reads its frames by itself; expected regular files, found something else");
+  }
+}
+
+void require_divisible(const VerifyRequest& request) {
+  if (request.run) throw UsageError("--divide: is for two frames; expected them, found a run");
+  if (request.first_only || !verifier_proves(request)) {
+    throw UsageError("--divide: expected none of --first-only, --only-new, --ignore and --min-distance with it");
   }
 }
 
@@ -134,6 +142,7 @@ class Windows : public ShardMotion {
 }  // namespace
 
 std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request) {
+  if (request.divide) require_divisible(request);
   if (!request.run) {
     require_files(request);
     return std::make_unique<Frames>(request);

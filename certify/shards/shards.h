@@ -10,6 +10,7 @@
 // Notation
 //   task      16 steps of the frames, the chain of proofs/prover/chain.h, or 16 windows of a run; tasks count from 0
 //   shard     the file of a finished task: what was found in its steps, and their proof
+//   divided   with `divide`, the step between two frames has parts_of_step tasks
 //   shard K of N   the tasks K - 1, K - 1 + N, K - 1 + 2 N, ...
 //
 // The joined outcome, and the bytes of its proof, are those of one process that verifies all. Joining reads all frames
@@ -27,6 +28,8 @@
 #include <noli/verify.h>
 
 namespace noli {
+
+inline constexpr std::uint32_t parts_of_step = 64;
 
 /// Which tasks one process does, and where their shards are.
 struct ShardWork {
@@ -61,7 +64,7 @@ std::filesystem::path usual_shard_folder(const VerifyRequest& request);
 /// request has `check`, `proof`, or a least distance. Of a run that is being written, it does the windows that are
 /// there, with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be cut into parts:
 /// frames that are in no regular file, world lines that are in no file and are to be checked, shards of another request
-/// in the folder.
+/// in the folder; with `divide` also more than one step, first_only, only_new, ignore, and a least distance.
 ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,

@@ -13,6 +13,7 @@
 #include "certify/shards/shard_motion.h"
 #include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
+#include "certify/step_parts.h"
 #include "certify/verification.h"
 #include "proofs/prover/chain.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -23,27 +24,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ShardMaker {
+class ShardMaker : private StepParts {
  public:
   ShardMaker(const VerifyRequest& request, const ShardWork& work)
       : request_(request),
         work_(work),
-        proved_(are_proved(request)),
+        proved_(noli::are_proved(request)),
         motion_(motion_of_shards(request)),
         steps_(motion_->step_count()),
         folder_(work.folder, request_json(request)) {
+    if (request.divide && steps_ != 1) {
+      throw UsageError(fmt::format("--divide: is for one step; expected two frames, found {} steps", steps_));
+    }
     count_tasks();
   }
 
   ShardOutcome operator()() {
     try {
-      while (const auto task = next_task()) {
-        if (*task > last_needed_) {
-          ++outcome_.not_needed;
-        } else if (!is_there(*task) && !make(*task)) {
-          break;
-        }
-      }
+      request_.divide ? make_parts() : make_all();
     } catch (const Stopped& stopped) {
       outcome_.interrupted |= stopped.reason() == StopReason::interrupted;
       outcome_.out_of_time |= stopped.reason() == StopReason::out_of_time;
@@ -52,6 +50,56 @@ class ShardMaker {
   }
 
  private:
+  void make_all() {
+    while (const auto task = next_task()) {
+      if (*task > last_needed_) {
+        ++outcome_.not_needed;
+      } else if (!is_there(*task) && !make(*task)) {
+        break;
+      }
+    }
+  }
+
+  /// Of a divided step. The frames are read, and the tree is built, once for all parts.
+  void make_parts() {
+    next_part_ = next_missing();
+    if (!next_part_) return;
+    VerifyRequest request = request_;
+    request.parts = this;
+    request.proof.reset();
+    request.open_proof = nullptr;
+    note_stop(run_verify(request));
+  }
+
+  std::optional<std::uint64_t> next_missing() {
+    while (const auto task = next_task()) {
+      if (!is_there(*task)) return task;
+    }
+    return std::nullopt;
+  }
+
+  bool are_proved() const override { return proved_; }
+
+  std::optional<StepPart> next() override {
+    const auto part = next_part_ ? std::exchange(next_part_, std::nullopt) : next_missing();
+    return part ? std::optional(StepPart{static_cast<std::uint32_t>(*part), parts_of_step}) : std::nullopt;
+  }
+
+  void take(const StepPart& part, const StepResult& result, const VerifyOutcome& outcome) override {
+    Json head = head_json(part.index, range_of(part.index), {result}, outcome);
+    head["ends"] = false;  // contacts are counted in all parts
+    head["unproved"] = proved_ && !result.touches() && result.proof == nullptr;
+    head["files"] = files_json(outcome);
+    write_shard(folder_.shard(part.index), head, result.proof.get());
+    ++outcome_.done;
+    note_end(head);
+  }
+
+  void note_stop(const VerifyOutcome& found) {
+    outcome_.interrupted |= found.interrupted;
+    outcome_.out_of_time |= found.out_of_time;
+  }
+
   std::optional<std::uint64_t> next_task() {
     const auto task = work_.next_task ? work_.next_task() : std::optional(work_.number - 1 + made_++ * work_.of);
     if (task && request_.follow && *task <= last_needed_) wait_for(*task);
@@ -67,9 +115,12 @@ class ShardMaker {
     count_tasks();
   }
 
-  void count_tasks() { outcome_.tasks_total = (steps_ + steps_of_chain - 1) / steps_of_chain; }
+  void count_tasks() {
+    outcome_.tasks_total = request_.divide ? parts_of_step : (steps_ + steps_of_chain - 1) / steps_of_chain;
+  }
 
   StepRange range_of(std::uint64_t task) const {
+    if (request_.divide) return {0, steps_};
     return {task * steps_of_chain, std::min((task + 1) * steps_of_chain, steps_)};
   }
 
@@ -106,8 +157,7 @@ class ShardMaker {
     part.open_proof = proved_ ? proof_to_file(proof) : nullptr;
     part.open_proof_at_once = false;
     const VerifyOutcome found = run_verify(part);
-    outcome_.interrupted |= found.interrupted;
-    outcome_.out_of_time |= found.out_of_time;
+    note_stop(found);
     if (!outcome_.complete()) return false;
     Json head = head_json(task, range, decisions, found);
     head[request_.run ? "windows" : "files"] = request_.run ? windows_json(windows) : files_json(found);
@@ -189,6 +239,7 @@ class ShardMaker {
   ShardFolder folder_;
   ShardOutcome outcome_;
   std::uint64_t made_ = 0;
+  std::optional<std::uint64_t> next_part_;         ///< the first one that is missing, until it is asked for
   std::uint64_t last_needed_ = ~std::uint64_t{0};  ///< no task behind it is needed
 };
 
@@ -213,7 +264,7 @@ VerifyRequest request_of_shards(const fs::path& folder) {
     }
     request.live = request.run && is_locked(request.frames.at(0));
     request.prepare_to_reproduce();
-    request.decided = std::make_shared<DecidedShards>(std::move(shards), request.run);
+    request.decided = std::make_shared<DecidedShards>(std::move(shards), request);
     return request;
   });
 }

@@ -38,6 +38,7 @@
 namespace noli {
 
 struct ChainMemory;
+struct StepPart;
 struct StepProof;
 struct VerifyOptions;
 struct VerifyResult;
@@ -103,6 +104,11 @@ class SequenceVerifier {
   /// std::length_error for more than most_of_baseline pairs.
   static constexpr std::size_t most_of_baseline = 1'000'000;
   const std::vector<InitialIntersection>& baseline(std::span<const Position> x);
+
+  /// For Noli itself: a part of the first step, in which nothing is known of steps before. Precondition: no
+  /// `first_only`, `only_new` and `exclusions`, and no other positions than in the calls before.
+  StepResult part_of_step(std::span<const Position> x_t0, std::span<const Position> x_t1, const StepPart& part,
+                          bool prove);
 
   /// For Noli itself: the options of the prover for a step. `progress` is not among them.
   VerifyOptions step_options() const;

@@ -42,6 +42,7 @@ class DecidedSteps;
 struct CommitPoint;
 class TrajectoryPipe;
 class Sink;
+class StepParts;
 struct StepResult;
 
 /// Steps first, first + 1, ..., end - 1, from 0.
@@ -94,7 +95,9 @@ struct VerifyRequest {
   /// Of a run with `only`: gets the hash of the group of the first window of all, then of each that was decided.
   std::vector<std::array<std::uint8_t, 32>>* windows = nullptr;
   const CommitPoint* before =
-      nullptr;  ///< of a run with `only`: where the window before those begins, if there are others before it
+      nullptr;          ///< of a run with `only`: where the window before those begins, if there are others before it
+  bool divide = false;  ///< the only step is decided in parts, perhaps by several processes (--divide)
+  StepParts* parts = nullptr;             ///< with `divide`: which parts are decided here, and who gets what is found
   std::shared_ptr<DecidedSteps> decided;  ///< has what would be found in each step
 
   /// Without a proof there is no answer.

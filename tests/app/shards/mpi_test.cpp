@@ -41,6 +41,13 @@ TEST_F(InRanks, NothingTouches) {
   expect_same_answer(whole(asked), all);
 }
 
+TEST_F(InRanks, AStepIsDivided) {
+  const Words asked = write_waves(2);
+  const Process all = job(3, joined(asked_of_ranks(asked), {"--divide"}));
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  expect_same_answer(whole(asked), all);
+}
+
 TEST_F(InRanks, ARunIsVerified) {
   const std::string run = folder.path("run");
   WildRun(2, 3, 5).write(run, 36);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -45,7 +46,8 @@ class Shards : public testing::Test {
   }
 
   /// Frame k of a sheet in waves, whose proof has half a megabyte a step.
-  std::string write_wave(int k, double lifted = 0) const {
+  std::string write_wave(
+      int k, double lifted = 0, const std::function<void(Position&)>& move = [](Position&) {}) const {
     constexpr int side = 48;
     std::vector<Position> points;
     std::vector<std::array<VertexId, 3>> faces;
@@ -53,6 +55,7 @@ class Shards : public testing::Test {
       const int row = i / side, column = i % side;
       const double x = column, y = row;
       points.push_back({x, y, 0.25 * std::sin(0.5 * x + 0.25 * y + k) + lifted});
+      move(points.back());
     }
     for (VertexId i = 0; i + side < side * side; ++i) {
       if (i % side == side - 1) continue;

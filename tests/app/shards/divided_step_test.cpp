@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests `--divide`: the parts of one step, decided by several processes, give the answer of one process, byte for byte.
+#include "tests/app/shards/shards_fixture.h"
+#include "tests/support/real_data.h"
+
+namespace noli::app_tests {
+namespace {
+
+class DividedStep : public Shards {
+ protected:
+  Process divided(const Words& asked, const std::string& which) const {
+    return part(joined(asked, {"--divide"}), which);
+  }
+
+  void expect_answer_of_one_process(const Words& asked, int exit_code) const {
+    const Process one = whole(asked);
+    EXPECT_EQ(one.exit_code, exit_code) << one.out << one.err;
+    for (const char* which : {"2/3", "1/3", "3/3"}) {
+      const Process process = divided(asked, which);
+      EXPECT_LE(process.exit_code, 1) << process.err;
+    }
+    expect_same_answer(one, merge());
+  }
+
+  /// Two frames of a sheet in waves, the second one with its right half folded onto the left one.
+  Words folding() const {
+    const std::string folded = write_wave(1, 0, [](Position& x) {
+      if (x[0] > 24) x = {48.25 - x[0], x[1], x[2] + 0.3};
+    });
+    return {write_wave(0), folded};
+  }
+};
+
+TEST_F(DividedStep, HasTheProofOfOneProcess) {
+  const Words asked = write_waves(2);
+  expect_answer_of_one_process(asked, 0);
+  EXPECT_GT(fs::file_size(folder.path("all.noli")), 300'000U) << "tokens of several parts";
+  EXPECT_EQ(run_noli(joined({"check", folder.path("all.noli")}, asked)).exit_code, 0);
+  if (verified_checker_is_there()) {
+    EXPECT_EQ(run_noli(joined({"check", "--verified", folder.path("all.noli")}, asked)).exit_code, 0);
+  }
+}
+
+TEST_F(DividedStep, HasTheContactsOfOneProcess) {
+  const Words frames = folding();
+  for (const Words& more : {Words{}, Words{"--max-reports", "3"}, Words{"--max-reports", "0"}, Words{"--strict"}}) {
+    expect_answer_of_one_process(joined(frames, more), 1);
+    EXPECT_GT(answer("all.json").at("contacts").at("edge_edge").get<int>(), 1000);
+    fs::remove_all(shards());
+  }
+}
+
+TEST_F(DividedStep, MayStandStill) {
+  expect_answer_of_one_process({write_wave(3), "--static"}, 0);
+  fs::remove_all(shards());
+  expect_answer_of_one_process({folding()[1], "--static"}, 1);
+  EXPECT_GT(answer("all.json").at("initial_intersections").get<int>(), 100);
+}
+
+TEST_F(DividedStep, MayHaveFewerTasksThanParts) {
+  expect_answer_of_one_process(write_motion(2), 0);
+  fs::remove_all(shards());
+  expect_answer_of_one_process(write_motion(2, {1}), 1);
+}
+
+TEST_F(DividedStep, WithoutProofsGivesNoContact) {
+  const Words asked = joined(write_waves(2), {"--no-check"});
+  const Process one = run_noli(joined({"verify", "--json", folder.path("one.json")}, asked));
+  ASSERT_EQ(divided(asked, "1/1").exit_code, 0);
+  EXPECT_EQ(merge().exit_code, 3) << "a proof was asked for";
+  expect_same_answer(one, run_noli({"merge", shards(), "--json", folder.path("all.json")}));
+}
+
+TEST_F(DividedStep, DoesOnlyWhatIsMissing) {
+  const Words asked = write_waves(2);
+  EXPECT_EQ(divided(joined(asked, {"--time-limit", "1ms"}), "1/1").exit_code, 2);
+  EXPECT_EQ(merge().exit_code, 3);
+  ASSERT_EQ(divided(asked, "1/2").exit_code, 0);
+  const Process missing = merge();
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.err.find("task_000002.shard is missing (part 2 of 64)"), std::string::npos) << missing.err;
+  ASSERT_EQ(divided(asked, "2/2").exit_code, 0);
+  fs::remove(shard(7));
+  fs::resize_file(shard(9), fs::file_size(shard(9)) / 2);
+  EXPECT_EQ(merge().exit_code, 3);
+  const Process again = divided(asked, "1/1");
+  EXPECT_NE(again.out.find("2 of 64 tasks done now, 62 before"), std::string::npos) << again.out;
+  expect_same_answer(whole(asked), merge());
+  write_wave(1, 1);
+  const Process other = merge();
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("is not the file that"), std::string::npos) << other.err;
+}
+
+/// Parts in another order, or of other steps, make a proof that no checker accepts, or none.
+TEST_F(DividedStep, APartInThePlaceOfAnotherIsRefused) {
+  const Words asked = write_waves(2);
+  ASSERT_EQ(divided(asked, "1/1").exit_code, 0);
+  fs::copy_file(shard(3), shard(4), fs::copy_options::overwrite_existing);
+  const Process process = merge();
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("is the shard of another task"), std::string::npos) << process.err;
+}
+
+TEST_F(DividedStep, WrongUsageIsRefused) {
+  const Words three = write_waves(3), two = write_waves(2);
+  const auto expect_refused = [&](const Words& asked, const std::string& why) {
+    const Process process = divided(asked, "1/2");
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+  };
+  expect_refused(three, "found 2 steps");
+  for (const Words& more : {Words{"--first-only"}, Words{"--only-new"}, Words{"--min-distance", "0.01"}}) {
+    expect_refused(joined(two, more), "--divide: expected none of");
+  }
+  const Process alone = run_noli(joined({"verify", "--divide"}, two));
+  EXPECT_EQ(alone.exit_code, 3);
+  EXPECT_NE(alone.err.find("--divide: is for several processes"), std::string::npos) << alone.err;
+}
+
+TEST_F(DividedStep, SlowHasTheAnswerOfOneProcessForRealFrames) {
+  int tried = 0;
+  for (const char* const motion : {"armadillo-rollers", "cloth-ball", "cloth-funnel", "rod-twist-clean"}) {
+    const auto data = test::real_data(std::string("frames/") + motion);
+    if (!data) GTEST_SKIP();
+    Words frames;
+    for (const auto& entry : fs::directory_iterator(*data)) frames.push_back(entry.path().string());
+    std::ranges::sort(frames);
+    frames.resize(2);
+    const bool touches = std::string(motion) != "rod-twist-clean";
+    expect_answer_of_one_process(frames, touches ? 1 : 0);
+    fs::remove_all(shards());
+    ++tried;
+  }
+  EXPECT_EQ(tried, 4);
+}
+
+}  // namespace
+}  // namespace noli::app_tests
