@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <noli/sequence.h>
@@ -35,10 +36,13 @@ class DecidedSteps {
   /// The largest least distance at the beginning of that step, where it was looked for.
   virtual std::optional<LargestDistance> largest_distance() = 0;
 
-  /// Whether the step was decided in parts. blocks() then gives its tree and its tokens in pieces, and no witness.
-  virtual bool are_parts() const { return false; }
-  /// The first contact of each part that has one; result() gives none.
-  virtual std::vector<FirstInStep> firsts() const { return {}; }
+  /// Of frames: `result`, as result() gave it last, now that the positions are known. Of a step that was decided in
+  /// parts, only this has the first contact. Throws InputError when a contact does not meet.
+  virtual StepResult with_positions(StepResult result, int dimension, std::span<const Position> x_t0,
+                                    std::span<const Position> x_t1) = 0;
+  /// Whether the step was decided in parts. blocks() then passes on the tree and the tokens of all parts, without STEP,
+  /// and no witness; nothing if a part has no proof.
+  virtual bool in_parts() const { return false; }
 
   /// A folder with room for about as much as the proof takes.
   virtual std::filesystem::path scratch() const = 0;

@@ -76,11 +76,9 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
-  StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
-  result.rests = std::ranges::equal(x_t0, x_t1);
   meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
+  StepResult result = result_of(std::move(found), x_t0, x_t1);
   result.goes_on = any_at_begin && meeting_at_end_ && drop_met_at_begin(x_t0, x_t1, none_at_begin, result);
-  if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   if (result.touches() && !result.rests) {
     rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
   }
@@ -90,12 +88,19 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
 
 StepResult SequenceVerifier::part_of_step(std::span<const Position> x_t0, std::span<const Position> x_t1,
                                           const StepPart& part, bool prove) {
+  if (steps_ != options_.first_step || options_.first_only || options_.only_new || options_.exclusions != nullptr) {
+    throw std::logic_error("part_of_step(): expected no step before, and no first_only, only_new or exclusions");
+  }
   VerifyOptions options = step_options();
   options.prove = prove;
   options.part = part;
   options.chain = &chain_;
   options.progress = options_.progress;
-  VerifyResult found = verify_between(x_t0, x_t1, options);
+  return result_of(verify_between(x_t0, x_t1, options), x_t0, x_t1);
+}
+
+StepResult SequenceVerifier::result_of(VerifyResult found, std::span<const Position> x_t0,
+                                       std::span<const Position> x_t1) const {
   StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
   result.rests = std::ranges::equal(x_t0, x_t1);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));

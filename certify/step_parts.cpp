@@ -43,10 +43,14 @@ StepResult sum_of(std::vector<StepResult> parts, std::size_t most) {
   return sum;
 }
 
-std::optional<FirstInStep> first_of(const std::vector<FirstInStep>& parts, int dimension,
-                                    std::span<const Position> x_t0, std::span<const Position> x_t1) {
+std::optional<FirstInStep> earliest_of(const std::vector<FirstInStep>& parts, int dimension,
+                                       std::span<const Position> x_t0, std::span<const Position> x_t1) {
   EarliestOf<ExactlyInStep> earliest({x_t0, x_t1, dimension}, 1);
-  for (const FirstInStep& part : parts) earliest.add(part.contact);
+  for (const FirstInStep& part : parts) {
+    FeatureContact contact = part.contact;
+    contact.first = {0, 1};  // the exact time alone decides, whatever enclosure a file has
+    earliest.add(contact);
+  }
   const auto first = earliest.first();
   if (!first) return std::nullopt;
   return first_in_step(first->contact, query_of(first->contact, dimension, x_t0, x_t1));

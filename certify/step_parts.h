@@ -3,7 +3,9 @@
 // One step between two frames, decided in parts (StepPart, proofs/prover/verifier.h), perhaps by several processes.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <noli/sequence.h>
@@ -12,7 +14,7 @@
 
 namespace noli {
 
-/// Which parts of the step one process decides; it gets what was found in each.
+/// The parts that one process decides: next() says which, take() gets what was found.
 class StepParts {
  public:
   StepParts() = default;
@@ -28,12 +30,12 @@ class StepParts {
   virtual void take(const StepPart& part, const StepResult& result, const VerifyOutcome& outcome) = 0;
 };
 
-/// Adds up all parts but for `first`, which needs the positions. Lists at most `most` contacts and initial
-/// intersections.
+/// Adds up the parts: everything except `first`, which needs the positions (earliest_of). Lists at most `most` contacts
+/// and as many initial intersections.
 StepResult sum_of(std::vector<StepResult> parts, std::size_t most);
 
-/// The first contact in a step of which each part has at most one.
-std::optional<FirstInStep> first_of(const std::vector<FirstInStep>& parts, int dimension,
-                                    std::span<const Position> x_t0, std::span<const Position> x_t1);
+/// The earliest of the parts' first contacts. Precondition: each of them meets.
+std::optional<FirstInStep> earliest_of(const std::vector<FirstInStep>& parts, int dimension,
+                                       std::span<const Position> x_t0, std::span<const Position> x_t1);
 
 }  // namespace noli

@@ -3,6 +3,7 @@
 // Shared by the verifications of frames and of runs: adds the findings of each step, then sets the verdict.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -35,6 +36,11 @@ FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query);
 bool drop_contacts_at_begin(Findings& found, bool none, int dimension, std::span<const Position> x, std::size_t most,
                             const std::function<Findings()>& resting,
                             const std::function<Findings(std::size_t)>& again);
+
+/// How many contacts each step is to list: one at least, of which a witness may be made.
+inline std::size_t reports_of_step(const VerifyRequest& request) {
+  return std::max(request.max_reports, std::size_t{1});
+}
 
 /// Throws Stopped if the request is asked to stop, or its deadline has passed.
 void end_if_stopped(const VerifyRequest& request);

@@ -112,8 +112,7 @@ class SequenceVerification : private Verification {
     if (request_.merge_identical) find_classes();
     if (request_.only) skip_to_first();
     while (!stopped() && outcome_.complete) {
-      skip_decided();
-      if (stopped() || !read_next(sequence_)) {
+      if (!add_untouched_steps() || !read_next(sequence_)) {
         ended_ = outcome_.complete && !stopped();
         break;
       }
@@ -133,12 +132,21 @@ class SequenceVerification : private Verification {
     if (request_.only->first == 0 || stopped() || !read_next(sequence_)) return;
     begin();
     if (stopped()) outcome_.complete = false;
-    if (outcome_.complete) sequence_.skip_to(request_.only->first);
+    if (outcome_.complete) skip_to(request_.only->first);
   }
 
-  /// Steps that were decided elsewhere need their frames again only for a proof, and where a contact is listed.
-  void skip_decided() {
-    if (!request_.decided || request_.open_proof || outcome_.steps.empty() || !source_->may_skip()) return;
+  void skip_to(std::size_t step) {
+    const Stopwatch watch;
+    sequence_.skip_to(step);
+    outcome_.read_seconds += watch.seconds();
+  }
+
+  /// Adds the steps that come next, were decided elsewhere, and need no frames: no proof, no --trajectory, no contacts
+  /// to list. The first step is never among them, as its frames say what all steps are about. Returns whether another
+  /// step follows for which frames are to be read.
+  bool add_untouched_steps() {
+    const bool needs_frames = request_.open_proof || request_.trajectory || outcome_.steps.empty();
+    if (!request_.decided || needs_frames || !source_->may_skip()) return !stopped();
     for (std::size_t step = outcome_.steps.size(); step < outcome_.steps_total && !stopped(); ++step) {
       StepResult result = request_.decided->result(step, verifier_->mesh(), nullptr);
       if (!result.complete || result.first || result.touches()) {
@@ -149,7 +157,9 @@ class SequenceVerification : private Verification {
       add(result, std::nullopt, result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
       tell("verify", static_cast<double>(step + 1) / static_cast<double>(outcome_.steps_total));
     }
-    sequence_.skip_to(outcome_.steps.size());
+    if (stopped() || outcome_.steps.size() == outcome_.steps_total) return false;
+    skip_to(outcome_.steps.size());
+    return true;
   }
 
   /// Whatever the verdict, the file of --trajectory has all frames.
@@ -306,7 +316,7 @@ class SequenceVerification : private Verification {
     options.threads = request_.threads;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
-    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
+    options.max_reports = reports_of_step(request_);
     options.exclusions = exclusions();
     options.only_new = request_.only_new;
     options.first_step = request_.only ? request_.only->first : 0;
@@ -357,12 +367,9 @@ class SequenceVerification : private Verification {
   }
 
   StepResult take_decided() {
-    if (auto known = std::exchange(decided_, std::nullopt)) return std::move(*known);
-    StepResult result = request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr);
-    if (request_.decided->are_parts()) {
-      result.first = noli::first_of(request_.decided->firsts(), outcome_.dimension, sequence_.x_t0(), sequence_.x_t1());
-    }
-    return result;
+    auto known = std::exchange(decided_, std::nullopt);
+    if (!known) known = request_.decided->result(sequence_.step(), verifier_->mesh(), nullptr);
+    return request_.decided->with_positions(std::move(*known), outcome_.dimension, sequence_.x_t0(), sequence_.x_t1());
   }
 
   static StepResult without_proof(StepResult result) {
@@ -400,7 +407,7 @@ class SequenceVerification : private Verification {
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const auto number = sequence_.step();
     const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
-    if (request_.decided && request_.decided->are_parts()) {
+    if (request_.decided && request_.decided->in_parts()) {
       join_parts(step, result);
     } else if (request_.decided) {
       if (!take_proof(*proof_, step, result, verifier_->mesh())) refuse_frame();

@@ -232,7 +232,7 @@ class RunVerification : private Verification {
     options.initial = reader_.windows() <= 1;
     options.first_only = request_.first_only;
     options.strict = request_.strict;
-    options.max_reports = std::max(request_.max_reports, std::size_t{1});  // of which a witness may be made
+    options.max_reports = reports_of_step(request_);
     options.scripted = reader_.scene().labels;
     options.exclusions = &reader_.scene().exclusions;
     options.stop = request_.stop;

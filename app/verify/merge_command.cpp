@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* merge_footer =
     "The verdict, the JSON (except \"timing\") and the proof are those of one process that verifies everything. The "
-    "frames, or the run, are read again, by the names that `noli verify --shard` was given, and no step is decided "
+    "frames, or the run, must still be there by the names that `noli verify --shard` was given. No step is decided "
     "again. A shard that is missing, damaged, or of other files is an error.\n"
     "Examples:\n"
     "  noli verify 'frames/*.ply' --shard 1/2 -o shards\n"

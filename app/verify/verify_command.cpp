@@ -145,7 +145,7 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--trajectory: is for frames; a run has its trajectory.blocks");
   }
   if (request.divide && arguments.shard.empty() && !Ranks::is_mpi_job()) {
-    throw UsageError("--divide: is for several processes; expected --shard K/N or mpirun with it");
+    throw UsageError("--divide: shares one step among processes; expected --shard K/N with it, or mpirun");
   }
   request.live = request.run && is_locked(request.frames[0]);
   request.prepare_to_reproduce();
@@ -206,7 +206,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
                   "The folder for what --shard or ranks of mpirun find; made if it is not there")
       ->type_name("SHARDS");
   command.add_flag("--divide", request.divide,
-                   fmt::format("For two frames of a huge mesh: --shard or mpirun divide the one step, into {} tasks",
+                   fmt::format("Cut the step between two frames of a huge mesh into {} tasks, for --shard or mpirun",
                                parts_of_step));
   add_threads_option(command, request.threads);
   command

@@ -17,9 +17,10 @@ namespace noli::app {
 namespace {
 
 std::string_view verdict_of(const ShardOutcome& outcome) {
+  if (!outcome.complete()) return name(Verdict::undecided);  // whatever was found: tasks are missing
   if (outcome.first_touch) return name(Verdict::contact);
   if (outcome.first_near) return name(Verdict::too_near);
-  return outcome.complete() && !outcome.unproved ? "done" : name(Verdict::undecided);
+  return outcome.unproved ? name(Verdict::undecided) : "done";
 }
 
 /// "shard 3 of 64: 2 of 256 tasks done now, 1 before, ..."
@@ -92,7 +93,8 @@ ExitCode answer_shard(VerifyRequest& request, const ShardWork& work, const Outpu
   const ShardOutcome outcome = verify_shard(request, work);
   bars.reset();
   output.write("verify", shard_answer(work, outcome, request.step_word()), Json::object());
-  return exit_code_of(outcome.first_touch || outcome.first_near, outcome.complete() && !outcome.unproved);
+  const bool refuted = outcome.complete() && (outcome.first_touch || outcome.first_near);
+  return exit_code_of(refuted, outcome.complete() && !outcome.unproved);
 }
 
 }  // namespace noli::app

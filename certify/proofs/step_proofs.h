@@ -56,7 +56,8 @@ class StepProofs {
   bool copy(const MotionStep& step, const BlocksOfStep& blocks);
 
   /// Joins the tree and the tokens of a step that was proved in parts, and commits them. Returns false if `parts`
-  /// passes on no block.
+  /// passes on no block. Unlike copy(), it does not see which motion the parts are about: the caller compares the
+  /// files.
   bool join(const MotionStep& step, const BlocksOfStep& parts);
 
   /// Writes a witness for a step that has a contact, and commits it. False if none was found.

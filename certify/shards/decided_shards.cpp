@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <noli/contact.h>
 #include <noli/errors.h>
 #include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
@@ -33,16 +38,36 @@ StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const Run
 
 StepResult DecidedShards::sum_of_parts(const Mesh& mesh) {
   std::vector<StepResult> parts;
+  firsts_.clear();
   parts_are_proved_ = true;
   for (std::uint64_t task = 0; task < parts_of_step; ++task) {
     open(task);
     reading(file(), [&] {
-      parts.push_back(step_of_json(shard_->head().at("steps").at(0), mesh, {}));
+      const Json& steps = shard_->head().at("steps");
+      if (steps.size() != 1) throw std::invalid_argument(fmt::format("has {} steps; expected one", steps.size()));
+      parts.push_back(step_of_json(steps.at(0), mesh, {}));
       if (shard_->head().at("unproved").get<bool>()) parts_are_proved_ = false;
     });
     if (parts.back().first) firsts_.push_back(*parts.back().first);
   }
   return sum_of(std::move(parts), max_reports_);
+}
+
+StepResult DecidedShards::with_positions(StepResult result, int dimension, std::span<const Position> x_t0,
+                                         std::span<const Position> x_t1) {
+  const auto require_meeting = [&](const FeatureContact& contact) {
+    const auto query = query_of(contact, dimension, x_t0, x_t1);
+    if (!visit(query, [](const auto& typed) { return meet(typed); })) {
+      throw std::invalid_argument("lists features that do not meet");
+    }
+  };
+  return reading(divided_ ? folder_.path().string() : file(), [&] {
+    std::ranges::for_each(result.reports, require_meeting);
+    for (const FirstInStep& first : firsts_) require_meeting(first.contact);
+    if (result.first) require_meeting(result.first->contact);
+    if (divided_) result.first = earliest_of(firsts_, dimension, x_t0, x_t1);
+    return std::move(result);
+  });
 }
 
 void DecidedShards::open(std::uint64_t task) {

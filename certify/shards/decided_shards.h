@@ -3,8 +3,8 @@
 // The steps that shards decided, read one shard at a time.
 #pragma once
 
-#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +12,7 @@
 #include "certify/shards/shard_file.h"
 #include "certify/shards/shard_folder.h"
 #include "certify/shards/step_json.h"
+#include "certify/verification.h"
 #include "proofs/prover/chain.h"
 
 namespace noli {
@@ -23,12 +24,13 @@ class DecidedShards : public DecidedSteps {
       : folder_(std::move(folder)),
         of_run_(request.run),
         divided_(request.divide),
-        max_reports_(std::max(request.max_reports, std::size_t{1})) {}
+        max_reports_(reports_of_step(request)) {}
 
   StepResult result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) override;
   void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
-  bool are_parts() const override { return divided_; }
-  std::vector<FirstInStep> firsts() const override { return firsts_; }
+  StepResult with_positions(StepResult result, int dimension, std::span<const Position> x_t0,
+                            std::span<const Position> x_t1) override;
+  bool in_parts() const override { return divided_; }
   std::optional<ListedNear> near(const Mesh& mesh) override;
   std::optional<LargestDistance> largest_distance() override;
   std::filesystem::path scratch() const override { return folder_.path(); }
@@ -51,9 +53,9 @@ class DecidedShards : public DecidedSteps {
   std::vector<FrameFacts> files_;
   std::optional<ShardReader> shard_;
   std::uint64_t task_ = 0, step_ = 0;
-  std::string first_window_;  ///< its hash
-  StepTimes times_;           ///< of that step
-  std::vector<FirstInStep> firsts_;
+  std::string first_window_;         ///< its hash
+  StepTimes times_;                  ///< of that step
+  std::vector<FirstInStep> firsts_;  ///< of the parts that have one
   bool parts_are_proved_ = false;
 };
 

@@ -72,13 +72,13 @@ void write_shard(const fs::path& file, Json head, const std::optional<fs::path>&
   });
 }
 
-void write_shard(const fs::path& file, Json head, const StepProof* part) {
-  head["groups"] = part == nullptr ? 0 : 1;
+void write_part_shard(const fs::path& file, Json head, const StepProof* proof) {
+  head["groups"] = proof == nullptr ? 0 : 1;
   write(file, head, [&](BlockWriter& writer) {
-    if (part == nullptr) return;
+    if (proof == nullptr) return;
     writer.append(ProofFile::step_kind, std::string(sizeof(std::uint64_t), '\0'));
-    if (!part->leaf_cells.empty()) writer.append(ProofFile::tree_kind, encoded_tree(part->leaf_cells));
-    part->tokens.give([&](std::string_view piece) { writer.append(ProofFile::tokens_kind, piece); });
+    if (!proof->leaf_cells.empty()) writer.append(ProofFile::tree_kind, encoded_tree(proof->leaf_cells));
+    proof->tokens.give([&](std::string_view piece) { writer.append(ProofFile::tokens_kind, piece); });
     writer.commit();
   });
 }

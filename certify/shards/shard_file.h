@@ -7,8 +7,8 @@
 //   TASK   =  JSON: format, version, request (SHA-256 of request.json), task, first, end, groups, claim, touch, ends,
 //             near, unproved, largest_distance, steps, and what they were made from (shard_motion.h): files or windows
 //
-// A part of a divided step has one group with its tokens: STEP with nothing but the step's number, TREE in the first
-// part, and TOKS with the pieces that are joined for the proof.
+// A part of a divided step has at most one group, its proof: STEP with only the step's number, TREE in the first part,
+// and TOKS. Each piece of tokens has a TOKS of its own, so that joining gives the blocks that one process writes.
 //
 // `groups` says how many groups of steps follow, so a shard that was cut off is noticed before it is used.
 #pragma once
@@ -49,9 +49,10 @@ Json shared_claim_json(Claim claim);
 /// task's steps, or nothing. `head` gets its member `groups`. Throws std::system_error, InputError.
 void write_shard(const std::filesystem::path& file, Json head, const std::optional<std::filesystem::path>& proof);
 
-class ShardReader;
+/// The same for a part of a divided step. `proof`: of the part, or nullptr.
+void write_part_shard(const std::filesystem::path& file, Json head, const StepProof* proof);
 
-void write_shard(const std::filesystem::path& file, Json head, const StepProof* part);
+class ShardReader;
 
 /// The name of the first of these files that is not the one that the shard was made from; nothing if all are. `files`:
 /// all files of the frames, those that the shard was made from looked at. Throws InputError.

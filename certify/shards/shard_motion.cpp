@@ -35,9 +35,11 @@ void require_files(const VerifyRequest& request) {
 }
 
 void require_divisible(const VerifyRequest& request) {
-  if (request.run) throw UsageError("--divide: is for two frames; expected them, found a run");
-  if (request.first_only || !verifier_proves(request)) {
-    throw UsageError("--divide: expected none of --first-only, --only-new, --ignore and --min-distance with it");
+  if (request.run) throw UsageError("--divide: cuts the step between two frames; expected frames, found a run");
+  if (request.first_only) throw UsageError("--divide: all parts count contacts; expected no --first-only");
+  if (!verifier_proves(request)) {
+    throw UsageError(
+        "--divide: cannot be combined with --only-new, --ignore and --min-distance; expected none of them");
   }
 }
 

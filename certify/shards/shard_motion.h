@@ -35,8 +35,9 @@ class ShardMotion {
   virtual const CommitPoint* before(const StepRange& /*range*/) { return nullptr; }
 };
 
-/// Throws UsageError for what cannot be cut into parts: frames in no regular file, world lines in no file. Waits for
-/// windows that are still to come if `request.follow`. `request` must outlive it.
+/// Throws UsageError for what cannot be cut into parts: frames in no regular file, world lines in no file; with
+/// `divide` also a run, first_only, only_new, ignore and a least distance. Waits for windows that are still to come if
+/// `request.follow`. `request` must outlive it.
 std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request);
 
 }  // namespace noli

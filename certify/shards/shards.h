@@ -10,11 +10,12 @@
 // Notation
 //   task      16 steps of the frames, the chain of proofs/prover/chain.h, or 16 windows of a run; tasks count from 0
 //   shard     the file of a finished task: what was found in its steps, and their proof
-//   divided   with `divide`, the step between two frames has parts_of_step tasks
+//   part      with `divide`, one of the parts_of_step parts of the only step (proofs/prover/verifier.h): each is a task
 //   shard K of N   the tasks K - 1, K - 1 + N, K - 1 + 2 N, ...
 //
-// The joined outcome, and the bytes of its proof, are those of one process that verifies all. Joining reads all frames
-// or windows again, to say what was looked at; no step is decided twice. A process that was killed leaves the shards
+// The joined outcome, and the bytes of its proof, are those of one process that verifies all. Joining hashes all frames
+// again, and reads them where a proof or a list of contacts needs it; of a run it reads all windows. No step is decided
+// twice. A process that was killed leaves the shards
 // that it had finished, and the same call then does the rest.
 //
 // Errors: as each function says. Thread safety: any thread; processes may work in one folder at the same time.
@@ -29,6 +30,7 @@
 
 namespace noli {
 
+/// How many parts a divided step has: not the number of processes, on which no shard may depend.
 inline constexpr std::uint32_t parts_of_step = 64;
 
 /// Which tasks one process does, and where their shards are.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -51,6 +52,15 @@ Json contact_as_json(const FeatureContact& contact) {
   return {name(contact.pair), contact.vertices, contact.first.begin, contact.first.end};
 }
 
+/// Those that share a vertex are not compared.
+void require_two_features(const FeatureContact& contact) {
+  const std::span<const VertexId> all(contact.vertices.data(), point_count(contact.pair));
+  const auto first = all.first(first_size(contact.pair)), second = all.subspan(first.size());
+  for (const VertexId v : first) {
+    if (std::ranges::find(second, v) != second.end()) throw std::invalid_argument("features that share a vertex");
+  }
+}
+
 FeatureContact contact_of(const Json& json, const Mesh& mesh, StepTimes times) {
   FeatureContact contact;
   contact.pair = named<FeaturePair>(json.at(0), all_feature_pairs);
@@ -58,6 +68,8 @@ FeatureContact contact_of(const Json& json, const Mesh& mesh, StepTimes times) {
     contact.vertices[i] = whole<VertexId>(json.at(1).at(i), mesh.vertex_count);
   }
   contact.first = {time_of(json.at(2), times), time_of(json.at(3), times)};
+  if (contact.first.begin > contact.first.end) throw std::invalid_argument("a time that ends before it begins");
+  require_two_features(contact);
   return contact;
 }
 
@@ -97,6 +109,8 @@ StepResult step_of_json(const Json& json, const Mesh& mesh, StepTimes times) {
   for (const Json& contact : json.at("reports")) result.reports.push_back(contact_of(contact, mesh, times));
   for (const Json& pair : json.at("initial_reports")) {
     result.initial_reports.push_back({cell_of(pair.at(0), mesh), cell_of(pair.at(1), mesh)});
+    const auto& [a, b] = result.initial_reports.back();
+    if (a >= b) throw std::invalid_argument("cells that are not in ascending order");
   }
   result.stages.decided = counts_of<std::tuple_size_v<decltype(result.stages.decided)>>(json.at("stages"));
   result.obligations = whole(json.at("obligations"));
@@ -107,6 +121,7 @@ StepResult step_of_json(const Json& json, const Mesh& mesh, StepTimes times) {
   if (result.reports.size() > result.contact_count() || result.initial_reports.size() > result.initial_intersections) {
     throw std::invalid_argument("more contacts are listed than there are");
   }
+  if (result.contact_count() > 0 && !result.first) throw std::invalid_argument("contacts, of which none is the first");
   return result;
 }
 

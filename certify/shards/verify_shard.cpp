@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <noli/errors.h>
@@ -31,11 +32,8 @@ class ShardMaker : private StepParts {
         work_(work),
         proved_(noli::are_proved(request)),
         motion_(motion_of_shards(request)),
-        steps_(motion_->step_count()),
+        steps_(counted_steps()),
         folder_(work.folder, request_json(request)) {
-    if (request.divide && steps_ != 1) {
-      throw UsageError(fmt::format("--divide: is for one step; expected two frames, found {} steps", steps_));
-    }
     count_tasks();
   }
 
@@ -50,6 +48,16 @@ class ShardMaker : private StepParts {
   }
 
  private:
+  /// Called before the folder is made: a request that is refused leaves nothing.
+  std::uint64_t counted_steps() const {
+    const std::uint64_t steps = motion_->step_count();
+    if (request_.divide && steps != 1) {
+      throw UsageError(
+          fmt::format("--divide: expected one step (two frames, or one with --static), found {} steps", steps));
+    }
+    return steps;
+  }
+
   void make_all() {
     while (const auto task = next_task()) {
       if (*task > last_needed_) {
@@ -68,6 +76,7 @@ class ShardMaker : private StepParts {
     request.parts = this;
     request.proof.reset();
     request.open_proof = nullptr;
+    request.progress = [this](std::string_view work, double share) { tell_of_part(work, share); };
     note_stop(run_verify(request));
   }
 
@@ -82,15 +91,15 @@ class ShardMaker : private StepParts {
 
   std::optional<StepPart> next() override {
     const auto part = next_part_ ? std::exchange(next_part_, std::nullopt) : next_missing();
+    if (part) part_ = *part;
     return part ? std::optional(StepPart{static_cast<std::uint32_t>(*part), parts_of_step}) : std::nullopt;
   }
 
   void take(const StepPart& part, const StepResult& result, const VerifyOutcome& outcome) override {
-    Json head = head_json(part.index, range_of(part.index), {result}, outcome);
-    head["ends"] = false;  // contacts are counted in all parts
-    head["unproved"] = proved_ && !result.touches() && result.proof == nullptr;
+    const bool unproved = proved_ && !result.touches() && result.proof == nullptr;
+    Json head = head_json(part.index, range_of(part.index), {result}, outcome, unproved);
     head["files"] = files_json(outcome);
-    write_shard(folder_.shard(part.index), head, result.proof.get());
+    write_part_shard(folder_.shard(part.index), head, result.proof.get());
     ++outcome_.done;
     note_end(head);
   }
@@ -159,7 +168,7 @@ class ShardMaker : private StepParts {
     const VerifyOutcome found = run_verify(part);
     note_stop(found);
     if (!outcome_.complete()) return false;
-    Json head = head_json(task, range, decisions, found);
+    Json head = head_json(task, range, decisions, found, found.no_proof);
     head[request_.run ? "windows" : "files"] = request_.run ? windows_json(windows) : files_json(found);
     write_shard(folder_.shard(task), head, fs::exists(proof) ? std::optional(proof) : std::nullopt);
     ++outcome_.done;
@@ -173,6 +182,12 @@ class ShardMaker : private StepParts {
     const auto length = static_cast<double>(range.end - range.first);
     const double done = static_cast<double>(range.first) + share * length;
     request_.progress(work, request_.run ? done / static_cast<double>(steps_) : share);
+  }
+
+  void tell_of_part(std::string_view work, double share) const {
+    if (!request_.progress) return;
+    const double done = (static_cast<double>(part_) + share) / parts_of_step;
+    request_.progress(work, work == "verify" ? done : share);
   }
 
   static Json files_json(const VerifyOutcome& outcome) {
@@ -190,7 +205,7 @@ class ShardMaker : private StepParts {
   }
 
   Json head_json(std::uint64_t task, const StepRange& range, const std::vector<StepResult>& decisions,
-                 const VerifyOutcome& found) const {
+                 const VerifyOutcome& found, bool unproved) const {
     Json steps = Json::array(), near, largest;
     for (const StepResult& decision : decisions) steps.push_back(step_json(decision));
     if (found.near) {
@@ -210,9 +225,10 @@ class ShardMaker : private StepParts {
             {"end", range.end},
             {"claim", shared_claim_json(found.claim)},
             {"touch", touch},
-            {"ends", decisions.size() < range.end - range.first || found.near || !touch.is_null()},
+            {"ends", !request_.divide &&  // all parts of a step count contacts
+                         (decisions.size() < range.end - range.first || found.near || !touch.is_null())},
             {"near", near},
-            {"unproved", found.no_proof},
+            {"unproved", unproved},
             {"largest_distance", largest},
             {"steps", steps}};
   }
@@ -239,7 +255,9 @@ class ShardMaker : private StepParts {
   ShardFolder folder_;
   ShardOutcome outcome_;
   std::uint64_t made_ = 0;
-  std::optional<std::uint64_t> next_part_;         ///< the first one that is missing, until it is asked for
+  /// Looked for before the frames are read, so that nothing is read when all parts are there.
+  std::optional<std::uint64_t> next_part_;
+  std::uint64_t part_ = 0;                         ///< the last one that was asked for
   std::uint64_t last_needed_ = ~std::uint64_t{0};  ///< no task behind it is needed
 };
 

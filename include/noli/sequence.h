@@ -124,6 +124,7 @@ class SequenceVerifier {
   void take_back(std::span<const Position> x_t0);
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
+  StepResult result_of(VerifyResult found, std::span<const Position> x_t0, std::span<const Position> x_t1) const;
   bool drop_met_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none, StepResult& result);
 
   Mesh mesh_;

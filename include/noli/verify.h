@@ -96,8 +96,8 @@ struct VerifyRequest {
   std::vector<std::array<std::uint8_t, 32>>* windows = nullptr;
   const CommitPoint* before =
       nullptr;          ///< of a run with `only`: where the window before those begins, if there are others before it
-  bool divide = false;  ///< the only step is decided in parts, perhaps by several processes (--divide)
-  StepParts* parts = nullptr;             ///< with `divide`: which parts are decided here, and who gets what is found
+  bool divide = false;  ///< verify_shard() decides the only step in parts (--divide); the answer is the same
+  StepParts* parts = nullptr;  ///< decide only these parts, and hand each over; the outcome then has no verdict
   std::shared_ptr<DecidedSteps> decided;  ///< has what would be found in each step
 
   /// Without a proof there is no answer.

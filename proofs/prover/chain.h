@@ -20,7 +20,8 @@ inline constexpr std::uint64_t steps_of_chain = 16;
 /// Whether step k = 0, 1, ... is the first of its chain.
 constexpr bool starts_chain(std::uint64_t step) { return step % steps_of_chain == 0; }
 
-/// What verify_step() leaves for the next step of the chain: the tree, and room for all that a step needs.
+/// What verify_step() leaves for the next step of the chain, or for another part of the same step: the tree, and room
+/// for all that a step needs.
 struct ChainMemory {
   ChainMemory() = default;
   virtual ~ChainMemory() = default;

@@ -70,8 +70,8 @@ class Verification {
     if (options.chain != nullptr) memory_ = std::move(*options.chain);
     prepared_ = dynamic_cast<Prepared<Dim>*>(memory_.get());
     if (prepared_ != nullptr) {
-      const bool same_step = options.part.of > 1;
-      if (!same_step) prepared_->next(mesh, x_t0, x_t1, options.threads);
+      // The parts of a step have the same positions, so what another part left fits as it is.
+      if (options.part.of == 1) prepared_->next(mesh, x_t0, x_t1, options.threads);
       return;
     }
     auto made = std::make_unique<Prepared<Dim>>(mesh, x_t0, x_t1, options);

@@ -54,8 +54,8 @@ namespace noli {
 
 class Baseline;
 
-/// One of several parts of the work on one step, 0 to `of` - 1, each with about as many obligations. What all parts
-/// find and prove, in this order, is what is found and proved in the step.
+/// Part `index` of `of` of the work on one step: about the same number of tasks (proofs/prover/task_walk.h) each.
+/// Joined in order, the parts have the findings and the proof of the step.
 struct StepPart {
   std::uint32_t index = 0, of = 1;
 };
@@ -76,30 +76,30 @@ struct VerifyOptions {
   /// What the step before left, and then this one leaves; nothing at the beginning of a chain. All steps of a chain
   /// have the same mesh, `dimension` and `strict`. It may change `obligations`, `cell_pairs`, `stages` and the proof.
   std::unique_ptr<ChainMemory>* chain = nullptr;
-  /// Only this part of the step; not with `first_only`. `chain` then has what another part of this step left.
+  /// Only this part of the step; not with `first_only`. `chain` then has what another part of the same step left.
   StepPart part = {};
 };
 
 /// The proof that nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
 struct StepProof {
-  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree(); of a step's parts, the first one has it
+  std::vector<std::uint32_t> leaf_cells;  ///< the tree: see encoded_tree(); empty in all parts but the first
   JoinedTokens tokens;
 };
 
 struct VerifyResult : Findings {
   /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
-  /// Set if `prove` was set, the step is complete and nothing touches; unless parts come so near each other that no
-  /// proof was found.
+  /// Set if `prove` was set, the step, or the part, is complete, and nothing touches in it; unless parts come so near
+  /// each other that no proof was found.
   std::shared_ptr<const StepProof> proof;
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
 /// below that, and there are fewer than 2^31 cells. Deterministic: the result depends only on the input and on
-/// `dimension`, `initial`, `first_only`, `strict`, `max_reports` (unless stopped by `stop` or `deadline`), not on the
-/// number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change `obligations`,
-/// `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws std::bad_alloc, and
-/// what `progress` throws.
+/// `dimension`, `initial`, `first_only`, `strict`, `max_reports`, `part` (unless stopped by `stop` or `deadline`), not
+/// on the number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change
+/// `obligations`, `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws
+/// std::bad_alloc, and what `progress` throws.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

@@ -14,6 +14,7 @@
 
 #include <noli/errors.h>
 #include "certify/proofs/checker.h"
+#include "certify/shards/shards.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/blocks/block_sink.h"
 
@@ -54,6 +55,29 @@ TEST_F(VerifyInProcess, SomethingTouches) {
   ASSERT_TRUE(outcome.first);
   EXPECT_EQ(outcome.first->step, 2U);
   EXPECT_EQ(outcome.first->kind, ContactKind::crossing);
+}
+
+/// Frames of steps without contacts are gone when the shards are joined: none of them is read.
+TEST_F(VerifyInProcess, JoinsShardsFromTheFramesWithContactsAlone) {
+  VerifyRequest request;
+  for (int k = 0; k < 12; ++k) {
+    request.frames.emplace_back(frame(std::to_string(k) + ".obj", k == 6 ? 0.25 : 1.5, k < 6 ? 1 : -1));
+  }
+  request.keep_going = true;
+  request.check = false;
+  const std::filesystem::path shards = folder.path() / "shards";
+  EXPECT_EQ(verify_shard(request, {.folder = shards}).first_touch, 6U);
+  VerifyRequest whole = request_of_shards(shards);
+  whole.progress = [&](std::string_view work, double /*share*/) {
+    if (work != "verify") return;
+    for (const int k : {2, 3, 4, 8, 9, 10, 11}) std::filesystem::remove(request.frames[k]);
+  };
+  const VerifyOutcome joined = run_verify(whole);
+  EXPECT_EQ(joined.verdict, Verdict::contact);
+  EXPECT_EQ(joined.steps.size(), 11U);
+  ASSERT_TRUE(joined.first);
+  EXPECT_EQ(joined.first->step, 6U);
+  EXPECT_FALSE(std::filesystem::exists(request.frames[11]));
 }
 
 TEST_F(VerifyInProcess, WritesItsProofWhereItIsTold) {

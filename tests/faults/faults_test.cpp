@@ -49,7 +49,6 @@ const std::vector<Command>& commands() {
       {"Ccd", {"ccd", "IN/vertex-vertex.csv", "--porcelain"}},
       {"VerifyShard", {"verify", "IN/a.obj", "IN/b.obj", "--shard", "1/1", "-o", "OUT/shards"}},
       {"VerifyParts", {"verify", "IN/a.obj", "IN/b.obj", "--divide", "--shard", "1/16", "-o", "OUT/shards"}},
-      {"MergeParts", {"merge", "IN/parts", "--json", "OUT/a.json", "--proof", "OUT/a.noli"}},
       {"Merge", {"merge", "IN/shards", "--json", "OUT/a.json", "--proof", "OUT/a.noli"}},
       {"Simulate", {"simulate", "IN/scene.json", "-o", "OUT/run"}},
       {"SimulateFrames", {"simulate", "IN/frames.json", "-o", "OUT/run"}},
@@ -108,7 +107,6 @@ class Faults : public testing::TestWithParam<std::tuple<Command, std::string>> {
     made({"simulate", in_->path("scene.json"), "-o", in_->path("half"), "--until", "0.01"}, 0);
     made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--proof", in_->path("proof.noli")}, 0);
     made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--shard", "1/1", "-o", in_->path("shards")}, 0);
-    made({"verify", in_->path("a.obj"), in_->path("b.obj"), "--divide", "--shard", "1/1", "-o", in_->path("parts")}, 0);
   }
   static void TearDownTestSuite() {
     delete in_;

@@ -10,6 +10,7 @@
 #include "support.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/obj.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/formats/write_ply.h"
 
 namespace noli {
@@ -43,6 +44,29 @@ struct Taken : FrameInputs {
     for (std::size_t k = 0; k < frames.size(); ++k) read(k);
   }
 };
+
+TEST(FrameInputs, MayBeSkippedUnlessTheyHavePolygons) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("a.obj", triangle_obj), b = folder.write("b.obj", triangle_obj);
+  const auto quad = folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  EXPECT_TRUE(Taken({a, b}).may_skip());
+  EXPECT_FALSE(Taken({quad}).may_skip());
+  const auto cut = folder.write("cut.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  FrameInputs of_two({cut, quad});  // the same cells
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) of_two.look_at(k);
+  of_two.read(0);
+  EXPECT_FALSE(of_two.may_skip());
+  const auto joined = [&](const std::filesystem::path& still) {
+    FrameReading reading;
+    reading.bodies = {{"moving", {a, b}, false}, {"still", {still}, true}};
+    const auto source = open_frames({}, reading);
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) source->look_at(k);
+    source->read(0);
+    return source->may_skip();
+  };
+  EXPECT_TRUE(joined(a));
+  EXPECT_FALSE(joined(quad));
+}
 
 TEST(FrameInputs, SaysWhatWasRead) {
   const TemporaryFolder folder;

@@ -47,7 +47,7 @@ class FrameInputs : public FrameSource {
   std::optional<Frame> read(std::size_t k) override;
   /// Whether all are regular files.
   bool can_begin_again() const override;
-  bool may_skip() const override { return polygons_ == 0; }
+  bool may_skip() const override { return polygons_ == 0 && same_.size() == 1 && same_.begin()->has_value(); }
 
   /// One per frame.
   const std::vector<FrameFacts>& facts() const override { return facts_; }

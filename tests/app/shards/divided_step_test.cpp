@@ -23,6 +23,9 @@ class DividedStep : public Shards {
     expect_same_answer(one, merge());
   }
 
+  /// All parts are there.
+  void divide(const Words& asked, int exit_code) const { ASSERT_EQ(divided(asked, "1/1").exit_code, exit_code); }
+
   /// Two frames of a sheet in waves, the second one with its right half folded onto the left one.
   Words folding() const {
     const std::string folded = write_wave(1, 0, [](Position& x) {
@@ -93,10 +96,68 @@ TEST_F(DividedStep, DoesOnlyWhatIsMissing) {
   EXPECT_NE(other.err.find("is not the file that"), std::string::npos) << other.err;
 }
 
-/// Parts in another order, or of other steps, make a proof that no checker accepts, or none.
+TEST_F(DividedStep, MayHaveEqualFramesAndTwoDimensions) {
+  const std::string wave = write_wave(3);
+  expect_answer_of_one_process({wave, wave}, 0);
+  EXPECT_NE(bytes_of(folder.path("all.json")).find("nothing moves in step 1"), std::string::npos);
+  fs::remove_all(shards());
+  expect_answer_of_one_process(joined(write_waves(2), {"--dimension", "2"}), 0);
+  fs::remove_all(shards());
+  expect_answer_of_one_process(joined(folding(), {"--dimension", "2"}), 1);
+}
+
+/// The tokens are those of other parts.
+TEST_F(DividedStep, ExchangedPartsAreRefusedByTheChecker) {
+  divide(write_waves(2), 0);
+  fs::rename(shard(3), folder.path("third"));
+  fs::rename(shard(4), shard(3));
+  fs::rename(folder.path("third"), shard(4));
+  for (const int task : {3, 4}) change_head(shard(task), [&](auto& head) { head["task"] = task - 1; });
+  const Process process = merge();
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_NE(process.err.find("the shards do not fit together"), std::string::npos) << process.err;
+}
+
+TEST_F(DividedStep, APartWithoutAProofLeavesTheStepUnchecked) {
+  divide(write_waves(2), 0);
+  std::vector<Block> blocks = blocks_of(shard(5));
+  blocks.resize(2);  // the head and its commit
+  write_shard(shard(5), blocks);
+  change_head(shard(5), [](auto& head) { head["unproved"] = true, head["groups"] = 0; });
+  const Process process = merge();
+  EXPECT_EQ(process.exit_code, 2) << process.out << process.err;
+  EXPECT_EQ(process.verdict_line().substr(0, 9), "UNDECIDED") << process.out;
+}
+
+TEST_F(DividedStep, AnInventedFirstContactIsAFaultOfTheShards) {
+  const Words asked = folding();
+  divide(asked, 1);
+  int changed = 0;
+  for (int task = 1; task <= 9; ++task) {
+    change_head(shard(task), [&](auto& head) {
+      auto& first = head["steps"][0]["first"];
+      if (!first.is_null()) first["contact"][1] = {0, 100, 1000, 1001}, ++changed;
+    });
+  }
+  ASSERT_GT(changed, 0);
+  const Process process = merge();
+  EXPECT_EQ(process.exit_code, 3) << process.out << process.err;
+  EXPECT_NE(process.err.find("lists features that do not meet"), std::string::npos) << process.err;
+}
+
+/// Stopped with a contact found: tasks are missing, so this is not the exit code of a contact.
+TEST_F(DividedStep, StoppedIsUndecidedWhateverWasFound) {
+  const Words asked = folding();
+  divide(asked, 1);
+  fs::remove(shard(9));
+  const Process stopped = divided(joined(asked, {"--time-limit", "1ms"}), "1/1");
+  EXPECT_EQ(stopped.exit_code, 2) << stopped.out << stopped.err;
+  EXPECT_EQ(divided(asked, "1/1").exit_code, 1);
+}
+
+/// The head of a part says which one it is.
 TEST_F(DividedStep, APartInThePlaceOfAnotherIsRefused) {
-  const Words asked = write_waves(2);
-  ASSERT_EQ(divided(asked, "1/1").exit_code, 0);
+  divide(write_waves(2), 0);
   fs::copy_file(shard(3), shard(4), fs::copy_options::overwrite_existing);
   const Process process = merge();
   EXPECT_EQ(process.exit_code, 3);
@@ -109,14 +170,16 @@ TEST_F(DividedStep, WrongUsageIsRefused) {
     const Process process = divided(asked, "1/2");
     EXPECT_EQ(process.exit_code, 3);
     EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+    EXPECT_FALSE(fs::exists(shards())) << "a request that is refused leaves nothing";
   };
   expect_refused(three, "found 2 steps");
-  for (const Words& more : {Words{"--first-only"}, Words{"--only-new"}, Words{"--min-distance", "0.01"}}) {
-    expect_refused(joined(two, more), "--divide: expected none of");
+  expect_refused(joined(two, {"--first-only"}), "expected no --first-only");
+  for (const Words& more : {Words{"--only-new"}, Words{"--min-distance", "0.01"}}) {
+    expect_refused(joined(two, more), "--divide: cannot be combined with");
   }
   const Process alone = run_noli(joined({"verify", "--divide"}, two));
   EXPECT_EQ(alone.exit_code, 3);
-  EXPECT_NE(alone.err.find("--divide: is for several processes"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("--divide: shares one step among processes"), std::string::npos) << alone.err;
 }
 
 TEST_F(DividedStep, SlowHasTheAnswerOfOneProcessForRealFrames) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "tests/app/process.h"
 #include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
+#include "trajectory/blocks/block_file.h"
+#include "trajectory/blocks/block_sink.h"
 
 namespace noli::app_tests {
 
@@ -88,6 +91,29 @@ class Shards : public testing::Test {
   Process merge() const {
     return run_noli(
         {"merge", shards(), "--force", "--json", folder.path("all.json"), "--proof", folder.path("all.noli")});
+  }
+
+  static std::vector<Block> blocks_of(const std::string& file) {
+    BlockReader reader(fs::path(file), four_letters("SHRD"));
+    std::vector<Block> blocks;
+    while (auto block = reader.next()) blocks.push_back(*block);
+    return blocks;
+  }
+  /// With the right checksums.
+  static void write_shard(const std::string& file, const std::vector<Block>& blocks) {
+    fs::remove(file);
+    BlockWriter writer(std::make_unique<FileSink>(file, FileSink::Open::create), four_letters("SHRD"));
+    for (const Block& block : blocks) {
+      block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
+    }
+  }
+  /// The head of a shard, as `change` changes it.
+  static void change_head(const std::string& file, const std::function<void(nlohmann::ordered_json&)>& change) {
+    std::vector<Block> blocks = blocks_of(file);
+    auto head = nlohmann::ordered_json::parse(blocks[0].payload);
+    change(head);
+    blocks[0].payload = head.dump();
+    write_shard(file, blocks);
   }
 
   /// The JSON without the clock and the name of the proof.

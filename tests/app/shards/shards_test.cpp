@@ -8,8 +8,6 @@
 
 #include "tests/app/runs/wild_run.h"
 #include "tests/app/sequences.h"
-#include "trajectory/blocks/block_file.h"
-#include "trajectory/blocks/block_sink.h"
 
 namespace noli::app_tests {
 namespace {
@@ -148,6 +146,14 @@ TEST_F(UnprovedShards, KnowThePolygonsOfAllFrames) {
   }
   expect_answer_of_one_process(frames, 0);
   EXPECT_NE(bytes_of(folder.path("all.json")).find("polygon"), std::string::npos);
+  // The same cells, which only the frame in the middle has as a polygon.
+  for (int k = 0; k < 20; ++k) {
+    if (k == 10) continue;
+    folder.write("quad_" + std::to_string(k) + ".obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.125\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  }
+  fs::remove_all(shards());
+  expect_answer_of_one_process(frames, 0);
+  EXPECT_NE(bytes_of(folder.path("all.json")).find("1 polygon"), std::string::npos);
 }
 
 TEST_F(UnprovedShards, NameTheBodiesOfOneProcess) {
@@ -191,23 +197,6 @@ using OrderedJson = nlohmann::ordered_json;  // as Noli compares them
 
 class SpoiltShards : public Shards {
  protected:
-  static constexpr FourLetters content = four_letters("SHRD");
-
-  std::vector<Block> blocks_of(const std::string& file) const {
-    BlockReader reader(fs::path(file), content);
-    std::vector<Block> blocks;
-    while (auto block = reader.next()) blocks.push_back(*block);
-    return blocks;
-  }
-  /// With the right checksums.
-  void write_shard(const std::string& file, const std::vector<Block>& blocks) const {
-    fs::remove(file);
-    BlockWriter writer(std::make_unique<FileSink>(file, FileSink::Open::create), content);
-    for (const Block& block : blocks) {
-      block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
-    }
-  }
-
   void SetUp() override {
     frames_ = write_motion(40);
     ASSERT_EQ(part(frames_, "1/1").exit_code, 0);
@@ -308,33 +297,63 @@ TEST_F(SpoiltShards, AnyHeadOfARunEndsInAnAnswerOrAMessage) {
 }
 
 /// Whoever changes a shard can change counts, but then the checker finds another claim than was asked.
-TEST_F(SpoiltShards, OnesWithAnInventedContactAreRefused) {
-  std::vector<Block> blocks = blocks_of(shard(2));
-  OrderedJson head = OrderedJson::parse(blocks[0].payload);
-  head["steps"][3]["contacts"][0] = 1;
-  head["touch"] = 19;
-  blocks[0].payload = head.dump();
-  write_shard(shard(2), blocks);
+TEST_F(SpoiltShards, OnesWithAnInventedIntersectionAreRefused) {
+  change_head(shard(2), [](auto& head) {
+    head["steps"][3]["initial_intersections"] = 1;
+    head["touch"] = 19;
+  });
   expect_refused("the shards do not fit together");
+}
+
+TEST_F(Shards, AContactThatIsNoneIsAFaultOfTheShards) {
+  const Words asked = joined(write_motion(20, {5, 17}), {"--keep-going"});
+  ASSERT_EQ(part(asked, "1/1").exit_code, 1);
+  const auto sound = blocks_of(shard(1));
+  const auto expect_refused = [&](const char* member) {
+    change_head(shard(1), [&](auto& head) {
+      auto& contact =
+          std::string(member) == "first" ? head["steps"][4]["first"]["contact"] : head["steps"][4][member][0];
+      contact[1] = {6, 0, 1, 2};  // a vertex of the sheet, and the floor
+    });
+    const Process process = merge();
+    EXPECT_EQ(process.exit_code, 3) << process.out << process.err;
+    EXPECT_NE(process.err.find("lists features that do not meet"), std::string::npos) << process.err;
+    write_shard(shard(1), sound);
+  };
+  expect_refused("reports");
+  expect_refused("first");
+}
+
+/// What no step has.
+TEST_F(Shards, ContactsThatCannotBeAreAFaultOfTheShards) {
+  ASSERT_EQ(part(joined(write_motion(20, {5, 17}), {"--keep-going"}), "1/1").exit_code, 1);
+  const auto sound = blocks_of(shard(1));
+  const auto expect_refused = [&](const char* why, const std::function<void(nlohmann::ordered_json&)>& change) {
+    change_head(shard(1), [&](auto& head) { change(head["steps"][4]); });
+    const Process process = merge();
+    EXPECT_EQ(process.exit_code, 3) << why << process.out << process.err;
+    EXPECT_NE(process.err.find(why), std::string::npos) << process.err;
+    write_shard(shard(1), sound);
+  };
+  expect_refused("share a vertex", [](auto& step) { step["reports"][0][1] = {0, 0, 1, 2}; });
+  expect_refused("ends before it begins",
+                 [](auto& step) { step["first"]["contact"][2] = 1, step["first"]["contact"][3] = 0; });
+  expect_refused("none is the first", [](auto& step) { step["first"] = nullptr; });
+  expect_refused("ascending order", [](auto& step) {
+    step["initial_intersections"] = 1;
+    step["initial_reports"] = {{1, 1}};
+  });
 }
 
 /// The first step of half a megabyte a step: the checker, which reads along with one thread, ends long before the
 /// proof.
 TEST_F(Shards, AProofThatIsRefusedEarlyIsAFaultOfTheShards) {
   ASSERT_EQ(part(write_waves(3), "1/1").exit_code, 0);
-  std::vector<Block> blocks;
-  BlockReader reader(fs::path(shard(1)), four_letters("SHRD"));
-  while (auto block = reader.next()) blocks.push_back(*block);
+  std::vector<Block> blocks = blocks_of(shard(1));
   const auto tokens = std::ranges::find(blocks, four_letters("TOKS"), &Block::kind);
   ASSERT_NE(tokens, blocks.end());
   std::ranges::fill(tokens->payload, '\xff');
-  fs::remove(shard(1));
-  {
-    BlockWriter writer(std::make_unique<FileSink>(shard(1), FileSink::Open::create), four_letters("SHRD"));
-    for (const Block& block : blocks) {
-      block.kind == block_format::commit ? writer.commit() : writer.append(block.kind, block.payload);
-    }
-  }
+  write_shard(shard(1), blocks);
   for (const char* threads : {"1", "2"}) {
     const Process process = run_noli({"merge", shards(), "--threads", threads});
     EXPECT_EQ(process.exit_code, 3) << process.out << process.err;
