@@ -3,16 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include <noli/contact.h>
 #include <noli/errors.h>
-#include "certify/shards/shards.h"
 #include "certify/shards/step_json.h"
-#include "certify/step_parts.h"
-#include "proofs/prover/tokens/proof_file.h"
+#include "certify/verification.h"
 
 namespace noli {
 namespace {
@@ -22,7 +19,6 @@ constexpr const char* remedy = "run `noli verify --shard` again: it does what is
 }  // namespace
 
 StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) {
-  if (divided_) return sum_of_parts(mesh);
   if (!shard_ || step / steps_of_chain != task_ || step <= step_) open(step / steps_of_chain);
   step_ = step;
   return reading(file(), [&] {
@@ -36,47 +32,31 @@ StepResult DecidedShards::result(std::uint64_t step, const Mesh& mesh, const Run
   });
 }
 
-StepResult DecidedShards::sum_of_parts(const Mesh& mesh) {
-  std::vector<StepResult> parts;
-  firsts_.clear();
-  parts_are_proved_ = true;
-  for (std::uint64_t task = 0; task < parts_of_step; ++task) {
-    open(task);
-    reading(file(), [&] {
-      const Json& steps = shard_->head().at("steps");
-      if (steps.size() != 1) throw std::invalid_argument(fmt::format("has {} steps; expected one", steps.size()));
-      parts.push_back(step_of_json(steps.at(0), mesh, {}));
-      if (shard_->head().at("unproved").get<bool>()) parts_are_proved_ = false;
-    });
-    if (parts.back().first) firsts_.push_back(*parts.back().first);
-  }
-  return sum_of(std::move(parts), max_reports_);
-}
-
 StepResult DecidedShards::with_positions(StepResult result, int dimension, std::span<const Position> x_t0,
                                          std::span<const Position> x_t1) {
-  const auto require_meeting = [&](const FeatureContact& contact) {
-    const auto query = query_of(contact, dimension, x_t0, x_t1);
-    if (!visit(query, [](const auto& typed) { return meet(typed); })) {
-      throw std::invalid_argument("lists features that do not meet");
-    }
-  };
-  return reading(divided_ ? folder_.path().string() : file(), [&] {
-    std::ranges::for_each(result.reports, require_meeting);
-    for (const FirstInStep& first : firsts_) require_meeting(first.contact);
-    if (result.first) require_meeting(result.first->contact);
-    if (divided_) result.first = earliest_of(firsts_, dimension, x_t0, x_t1);
-    return std::move(result);
+  reading(file(), [&] {
+    for (const FeatureContact& contact : result.reports) require_meeting(contact, dimension, x_t0, x_t1);
+    if (result.first) require_meeting(result.first->contact, dimension, x_t0, x_t1);
   });
+  return result;
+}
+
+void DecidedShards::require_meeting(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
+                                    std::span<const Position> x_t1) {
+  const auto query = query_of(contact, dimension, x_t0, x_t1);
+  if (visit(query, [](const auto& typed) { return meet(typed); })) return;
+  throw std::invalid_argument("lists features that do not meet");
+}
+
+std::string DecidedShards::words_of(std::uint64_t task) const {
+  return fmt::format("{}s {} to {}", step_word(), task * steps_of_chain + 1, (task + 1) * steps_of_chain);
 }
 
 void DecidedShards::open(std::uint64_t task) {
   if (!folder_.has(task)) {
-    const std::string what =
-        divided_ ? fmt::format("part {} of {}", task + 1, parts_of_step)
-                 : fmt::format("{}s {} to {}", step_word(), task * steps_of_chain + 1, (task + 1) * steps_of_chain);
-    throw InputError(folder_.path().string(), "",
-                     fmt::format("{} is missing ({}); {}", folder_.shard(task).filename().string(), what, remedy));
+    throw InputError(
+        folder_.path().string(), "",
+        fmt::format("{} is missing ({}); {}", folder_.shard(task).filename().string(), words_of(task), remedy));
   }
   task_ = task;
   shard_.emplace(folder_.shard(task), folder_.request_hash(), task);
@@ -105,13 +85,7 @@ void DecidedShards::require_window(const RunWindow& window) {
 }
 
 void DecidedShards::blocks(const std::function<void(FourLetters, std::string_view)>& take) {
-  if (!divided_) return shard_->blocks(step_, take);
-  for (std::uint64_t task = 0; task < parts_of_step && parts_are_proved_; ++task) {
-    open(task);
-    shard_->blocks(0, [&](FourLetters kind, std::string_view payload) {
-      if (kind != ProofFile::step_kind) take(kind, payload);
-    });
-  }
+  shard_->blocks(step_, take);
 }
 
 std::optional<ListedNear> DecidedShards::near(const Mesh& mesh) {

@@ -15,8 +15,7 @@
 //
 // The joined outcome, and the bytes of its proof, are those of one process that verifies all. Joining hashes all frames
 // again, and reads them where a proof or a list of contacts needs it; of a run it reads all windows. No step is decided
-// twice. A process that was killed leaves the shards
-// that it had finished, and the same call then does the rest.
+// twice. A process that was killed leaves the shards that it had finished, and the same call then does the rest.
 //
 // Errors: as each function says. Thread safety: any thread; processes may work in one folder at the same time.
 #pragma once

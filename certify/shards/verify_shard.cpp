@@ -9,7 +9,7 @@
 #include <noli/errors.h>
 #include <noli/sequence.h>
 #include "certify/process/scratch_folder.h"
-#include "certify/shards/decided_shards.h"
+#include "certify/shards/decided_parts.h"
 #include "certify/shards/request_json.h"
 #include "certify/shards/shard_motion.h"
 #include "certify/shards/shards.h"
@@ -282,7 +282,11 @@ VerifyRequest request_of_shards(const fs::path& folder) {
     }
     request.live = request.run && is_locked(request.frames.at(0));
     request.prepare_to_reproduce();
-    request.decided = std::make_shared<DecidedShards>(std::move(shards), request);
+    if (request.divide) {
+      request.decided = std::make_shared<DecidedParts>(std::move(shards), request);
+    } else {
+      request.decided = std::make_shared<DecidedShards>(std::move(shards), request.run);
+    }
     return request;
   });
 }
