@@ -58,7 +58,8 @@ VerifyOptions SequenceVerifier::step_options() const {
   return options;
 }
 
-StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove) {
+StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove,
+                                  ProofReceiver* receiver) {
   if (options_.only_new) baseline(x_t0);
   take_back(x_t0);
   const std::uint64_t steps_before = steps_;
@@ -72,6 +73,7 @@ StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<cons
   }
   VerifyOptions options = step_options();
   options.prove = prove && !baseline_;
+  options.receiver = receiver;
   options.chain = &chain_;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);

@@ -361,8 +361,26 @@ class SequenceVerification : private Verification {
 
   /// What other chains found does not count, as each may be decided by itself.
   StepResult decide() {
-    StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
+    StepResult result =
+        reads_along() ? decide_for_reader() : verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
     chain_proves_ = chain_proves_ && result.proof != nullptr;
+    return result;
+  }
+
+  /// Whether the checker gets the proof of this step while it is found. If there turns out to be none, the checker has
+  /// to begin again, so this is for the first step, and for frames that it can read again.
+  bool reads_along() const {
+    return proof_ && outcome_.steps.empty() && chain_proves_ && request_.trajectory_pipe == nullptr;
+  }
+
+  StepResult decide_for_reader() {
+    const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
+    const MotionStep step = step_between(lines);
+    StepProofs::Writer writer(*proof_, step);
+    StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), true, &writer);
+    proof_is_written_ = result.complete && result.proof != nullptr;
+    if (proof_is_written_) writer.commit();
+    if (!proof_is_written_ && writer.has_begun()) proof_.reset();
     return result;
   }
 
@@ -403,10 +421,9 @@ class SequenceVerification : private Verification {
     const Stopwatch watch;
     begin_proof();
     if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    if (!goes_to_proof(result)) return;
+    if (!goes_to_proof(result) || std::exchange(proof_is_written_, false)) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
-    const auto number = sequence_.step();
-    const MotionStep step{number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
+    const MotionStep step = step_between(lines);
     if (request_.decided && request_.decided->in_parts()) {
       join_parts(step, result);
     } else if (request_.decided) {
@@ -418,6 +435,11 @@ class SequenceVerification : private Verification {
     }
     witness_sought_ = doubtful();
     outcome_.proof_seconds += watch.seconds();
+  }
+
+  MotionStep step_between(const WorldLines& lines) const {
+    const auto number = sequence_.step();
+    return {number, lines, request_.constant_motion ? 0 : static_cast<double>(number)};
   }
 
   void join_parts(const MotionStep& step, const StepResult& result) {
@@ -507,6 +529,7 @@ class SequenceVerification : private Verification {
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
   std::optional<StepResult> decided_;     ///< of the next step, if it is known already
   bool chain_proves_ = false;             ///< all steps of the chain so far have a proof
+  bool proof_is_written_ = false;         ///< of the step that was decided last
   bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;
   std::optional<TrajectoryFile> trajectory_;  ///< --trajectory

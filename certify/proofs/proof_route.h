@@ -7,6 +7,9 @@
 //   VerifyOutcome outcome = run_verify(request);
 //   route.check(outcome);                             // "no contact" becomes "proved"
 //
+// The checker reads the proof of the first step while it is found. If that step has none after all, another checker
+// begins anew.
+//
 // With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
 // be taken back. So does that of a run that is being written: how many windows it has is known at the end. And that of
 // steps which shards decided, so that several checkers share it out.

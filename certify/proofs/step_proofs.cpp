@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/proofs/step_proofs.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -45,11 +46,27 @@ bool StepProofs::prove(const MotionStep& step, const WindowVerifier& verifier, c
 }
 
 void StepProofs::write(const MotionStep& step, const StepProof& proof) {
-  begin(step, ProofFile::Kind::proof);
-  if (leaf_cells_ != proof.leaf_cells) file_.tree(encoded_tree(proof.leaf_cells));
-  leaf_cells_ = proof.leaf_cells;
-  file_.tokens(proof.tokens);
-  file_.commit();
+  Writer writer(*this, step);
+  writer.tree(proof.leaf_cells);
+  proof.tokens.give([&](std::string_view bytes) { writer.tokens(bytes); });
+  writer.commit();
+}
+
+void StepProofs::Writer::tokens(std::string_view bytes) {
+  if (!std::exchange(begun_, true)) begin();
+  blocks_(bytes);
+}
+
+void StepProofs::Writer::begin() {
+  proofs_.begin(step_, ProofFile::Kind::proof);
+  if (std::ranges::equal(proofs_.leaf_cells_, leaf_cells_)) return;
+  proofs_.file_.tree(encoded_tree(leaf_cells_));
+  proofs_.leaf_cells_.assign(leaf_cells_.begin(), leaf_cells_.end());
+}
+
+void StepProofs::Writer::commit() {
+  blocks_.flush();
+  proofs_.commit();
 }
 
 bool StepProofs::copy(const MotionStep& step, const BlocksOfStep& blocks) {

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <noli/findings.h>
@@ -14,6 +16,7 @@
 #include "proofs/prover/tokens/mesh_paths.h"
 #include "proofs/prover/tokens/no_proof.h"
 #include "proofs/prover/tokens/proof_file.h"
+#include "proofs/prover/verifier.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "proofs/prover/witness/witness.h"
 
@@ -48,6 +51,7 @@ class StepProofs {
   bool prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options);
   /// Writes a finished proof and commits it.
   void write(const MotionStep& step, const StepProof& proof);
+  class Writer;
   void commit();
 
   /// Copies the blocks of a step from another file, and commits them. Of a run, the first step alone brings its tree.
@@ -82,6 +86,31 @@ class StepProofs {
   ProofFile file_;
   bool tree_due_;                          ///< the next proof brings its tree
   std::vector<std::uint32_t> leaf_cells_;  ///< of the last tree that write() wrote
+};
+
+/// Takes the proof of a step while it is found. Both arguments must outlive this.
+class StepProofs::Writer : public ProofReceiver {
+ public:
+  Writer(StepProofs& proofs, const MotionStep& step) : proofs_(proofs), step_(step) {}
+
+  void tree(std::span<const std::uint32_t> leaf_cells) override { leaf_cells_ = leaf_cells; }
+  void tokens(std::string_view bytes) override;
+  /// Makes the proof count.
+  void commit();
+  /// Whether the step was begun in the file.
+  bool has_begun() const { return begun_; }
+
+ private:
+  void begin();
+
+  StepProofs& proofs_;
+  const MotionStep& step_;
+  std::span<const std::uint32_t> leaf_cells_;
+  bool begun_ = false;
+  const std::function<void(std::string_view)> put_ = [this](std::string_view payload) {
+    proofs_.file_.tokens(payload);
+  };
+  TokenBlocks blocks_{put_};
 };
 
 /// The positions of the vertices at the beginning of the lines.

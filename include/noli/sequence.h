@@ -43,6 +43,7 @@ struct StepProof;
 struct VerifyOptions;
 struct VerifyResult;
 class Baseline;
+class ProofReceiver;
 class WindowVerifier;
 
 struct SequenceOptions {
@@ -95,8 +96,9 @@ class SequenceVerifier {
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before, or its x_t0 when that step
   /// touches and is tried again. add() then goes on from x_t1. Precondition and errors as for add(). `prove`: also fill
-  /// `proof`.
-  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
+  /// `proof`. `receiver`, for Noli itself: takes the proof while it is found; see VerifyOptions.
+  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false,
+                  ProofReceiver* receiver = nullptr);
 
   /// With `only_new`: the pairs of cells that intersect at the positions x of the first frame, in ascending order. All
   /// others are compared. add() and step() look for them in their first frame if it was not called before. If it is

@@ -82,9 +82,11 @@ struct VerifyRequest {
   std::optional<std::filesystem::path> trajectory;  ///< a file that all frames are written to, for checkers
   std::optional<std::filesystem::path> proof;       ///< the file where the user wants it, as reports name it
   bool check = true;                                ///< the checker looks at the proof: reports say whether it did
-  /// Where the proof of a claim is written to, called once at most; empty: none is made. See proof_to_file().
+  /// Where the proof of a claim is written to; empty: none is made. See proof_to_file(). Called once at most, or with
+  /// `open_proof_at_once` twice.
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
-  /// Call open_proof before the first step of frames is decided, so that the checker reads the frames meanwhile.
+  /// Call open_proof before the first step of frames is decided, so that the checker reads frames and proof meanwhile.
+  /// If this step turns out to have no proof, open_proof is called again, and what the first sink got does not count.
   bool open_proof_at_once = false;
 
   // For `noli verify` itself.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "proofs/prover/early_tokens.h"
 #include "proofs/prover/task_walk.h"
 
 namespace noli {
@@ -81,19 +82,17 @@ class Verification {
 
   VerifyResult run() {
     const Straight<Dim> positions(prepared_->hierarchy(), prepared_->cells(), prepared_->leftovers());
-    TaskWalk<Straight<Dim>, Out> walk(positions, options_, stop_, none_);
-    Progress progress(options_);
+    Walk walk(positions, options_, stop_, none_);
     const Group root = prepared_->hierarchy().root();
     walk.cut(root.count, [&](auto& top) { return top.run({root, root}); });
     walk.keep(options_.part);
-    progress.begin(0, 1, walk.task_count());
-    walk.run([&](std::size_t /*task*/) { progress.task_done(); });
+    const std::size_t unproved = settle(walk);
     auto& sum = walk.sum();
     VerifyResult result{sum.tally.findings(sum.finished), std::nullopt, nullptr};
     if (const auto first = sum.tally.earliest.first()) result.first = first->contact;
     if constexpr (Out::on) {
       if (result.complete && !result.touches()) {
-        result.proof = prove(walk);
+        result.proof = prove(walk, unproved);
         result.complete = result.proof != nullptr || !stop_.raised();
       }
     }
@@ -102,14 +101,35 @@ class Verification {
   }
 
  private:
-  /// Joins the tokens of the tasks. Nothing if no direction separates some of the remaining parts, or it was stopped.
-  std::shared_ptr<const StepProof> prove(TaskWalk<Straight<Dim>, Out>& walk) const {
+  using Walk = TaskWalk<Straight<Dim>, Out>;
+
+  /// Settles the tasks, and returns the first whose tokens were not passed on.
+  std::size_t settle(Walk& walk) const {
+    Progress progress(options_);
+    progress.begin(0, 1, walk.task_count());
+    if constexpr (Out::on) {
+      if (options_.receiver != nullptr) {
+        EarlyTokens early(walk, prepared_->hierarchy().leaf_cells(), *options_.receiver);
+        walk.run([&](std::size_t task) {
+          progress.task_done();
+          early.task_done(task);
+        });
+        return early.next();
+      }
+    }
+    walk.run([&](std::size_t /*task*/) { progress.task_done(); });
+    return walk.first_task();
+  }
+
+  /// Joins the tokens from task `first` on. Nothing if no direction separates some of the remaining parts, or it was
+  /// stopped.
+  std::shared_ptr<const StepProof> prove(Walk& walk, std::size_t first) const {
     auto proof = std::make_shared<StepProof>();
     const auto order = prepared_->hierarchy().leaf_cells();
     const auto& [index, of] = options_.part;
-    if (index == 0) proof->leaf_cells.assign(order.begin(), order.end());
+    if (index == 0 && options_.receiver == nullptr) proof->leaf_cells.assign(order.begin(), order.end());
     const auto& tasks = walk.tasks();
-    const std::size_t first = walk.first_task(), count = walk.task_count(), end = first + count;
+    const std::size_t end = walk.first_task() + walk.task_count(), count = end - first;
     JoinedTokens& all = proof->tokens;
     all.tokens = std::move(walk.sum().out.tokens);
     all.begin = first == 0 ? 0 : tasks[first - 1].tokens_before;
@@ -120,7 +140,12 @@ class Verification {
     parallel_for(count, options_.threads, [&](std::size_t i) {
       if (whole && !close_open_parts(walk.outcome(first + i).out, all.inserted[i])) whole = false;
     });
-    return whole ? proof : nullptr;
+    if (!whole) return nullptr;
+    if (options_.receiver != nullptr) {
+      all.give([this](std::string_view bytes) { options_.receiver->tokens(bytes); });
+      all = {};
+    }
+    return proof;
   }
 
   bool close_open_parts(WalkTokens<Dim, Out>& out, JoinedTokens& tokens) const {

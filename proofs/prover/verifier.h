@@ -41,6 +41,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <noli/contact.h>
@@ -58,6 +59,20 @@ class Baseline;
 /// Joined in order, the parts have the findings and the proof of the step.
 struct StepPart {
   std::uint32_t index = 0, of = 1;
+};
+
+/// Takes the proof of a step while the step is decided: the tree, then the tokens in order. Its functions are called from
+/// any thread, one at a time. If the step turns out to have no proof, what they got counts for nothing.
+class ProofReceiver {
+ public:
+  ProofReceiver() = default;
+  virtual ~ProofReceiver() = default;
+  ProofReceiver(const ProofReceiver&) = delete;
+  ProofReceiver& operator=(const ProofReceiver&) = delete;
+
+  /// See encoded_tree(). The cells stay where they are until the last call.
+  virtual void tree(std::span<const std::uint32_t> leaf_cells) = 0;
+  virtual void tokens(std::string_view bytes) = 0;
 };
 
 struct VerifyOptions {
@@ -78,6 +93,8 @@ struct VerifyOptions {
   std::unique_ptr<ChainMemory>* chain = nullptr;
   /// Only this part of the step; not with `first_only`. `chain` then has what another part of the same step left.
   StepPart part = {};
+  /// Takes the proof, piece by piece; with `prove`, and not with `part`.
+  ProofReceiver* receiver = nullptr;
 };
 
 /// The proof that nothing touches in a step (proofs/FORMAT.md, TREE and TOKS).
@@ -90,7 +107,7 @@ struct VerifyResult : Findings {
   /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
   /// Set if `prove` was set, the step, or the part, is complete, and nothing touches in it; unless parts come so near
-  /// each other that no proof was found.
+  /// each other that no proof was found. It is empty if a receiver took it.
   std::shared_ptr<const StepProof> proof;
 };
 
@@ -99,7 +116,7 @@ struct VerifyResult : Findings {
 /// `dimension`, `initial`, `first_only`, `strict`, `max_reports`, `part` (unless stopped by `stop` or `deadline`), not
 /// on the number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change
 /// `obligations`, `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws
-/// std::bad_alloc, and what `progress` throws.
+/// std::bad_alloc, and what `progress` and `receiver` throw.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 

@@ -241,6 +241,35 @@ TEST_F(Proof, GoesToTheCheckerAtOnceIfNobodyWantsAFile) {
   EXPECT_EQ(verify(triangles({1, 0.5, -2}), {"--no-check"}).out.find("The checker says"), std::string::npos);
 }
 
+/// The checker reads the proof of the first step while it is found, so here it has to begin again.
+TEST_F(Proof, AContactFoundLateInTheFirstStepIsChecked) {
+  const auto frame = [&](const std::string& name, double height) {
+    std::vector<Position> points;
+    std::vector<std::array<VertexId, 3>> faces;
+    const auto face = [&](double x, double z) {
+      const auto v = static_cast<VertexId>(points.size());
+      points.insert(points.end(), {{x, 0, z}, {x + 0.5, 0, z}, {x, 0.5, z}});
+      faces.push_back({v, v + 1, v + 2});
+    };
+    for (int i = 0; i < 9000; ++i) face(i, 0);
+    face(9000, 0);
+    face(9000, height);
+    return folder.write(name, ply_text(points, faces));
+  };
+  const std::string a = frame("a.ply", 1), b = frame("b.ply", -1), c = frame("c.ply", -2);
+  const Process process = verify({a, b, c}, {"-v", "--keep-going"});
+  EXPECT_EQ(process.exit_code, 1);
+  EXPECT_NE(process.out.find("The checker says of the proof: refuted: in step 1, "), std::string::npos) << process.out;
+  const std::string file = folder.path("result.json");
+  for (const char* const threads : {"1", "2"}) {
+    EXPECT_EQ(verify({a, b}, {"--threads", threads, "--json", file, "--force"}).exit_code, 1);
+    const Json result = Json::parse(read_text(file));
+    EXPECT_EQ(result["proof"]["witnesses"], 1);
+    EXPECT_EQ(result["stages"]["cell_pairs"], 1);
+    EXPECT_EQ(verify({b, c}, {"--threads", threads}).exit_code, 0);
+  }
+}
+
 TEST_F(Proof, ABuildWithoutTheVerifiedCheckerSaysSo) {
   const auto frames = triangles({1, 0.5});
   const std::string proof = folder.path("p.noli");

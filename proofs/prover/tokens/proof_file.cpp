@@ -128,13 +128,6 @@ void ProofFile::begin_step(std::uint64_t number, Kind kind, const WorldLines& li
   append(step_kind, step_payload(number, kind, lines, shift, hash));
 }
 
-void ProofFile::tokens(const JoinedTokens& all) {
-  const std::function<void(std::string_view)> put = [this](std::string_view payload) { tokens(payload); };
-  TokenBlocks blocks(put);
-  all.give([&](std::string_view bytes) { blocks(bytes); });
-  blocks.flush();
-}
-
 bool ProofFile::tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make) {
   bool whole = false;
   try {

@@ -66,8 +66,6 @@ class ProofFile {
                   const std::optional<Sha256Digest>& hash = {});
   void tree(std::string_view payload) { blocks_.append(tree_kind, payload); }
   void tokens(std::string_view payload) { blocks_.append(tokens_kind, payload); }
-  /// All tokens of a step.
-  void tokens(const JoinedTokens& all);
   /// All tokens that `make` passes on. If it returns false or throws, the step is dropped.
   bool tokens(const std::function<bool(const std::function<void(std::string_view)>&)>& make);
   void witness(std::string_view payload) { blocks_.append(four_letters("WITN"), payload); }
