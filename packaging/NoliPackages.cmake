@@ -50,7 +50,7 @@ and audits how far their answers and floating-point numbers can be trusted.")
 math(EXPR python_after "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libnoli-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), libcgal-dev, libfmt-dev, libgmp-dev, libminizip-dev, libmpfr-dev, libpugixml-dev, libtbb-dev, zlib1g-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "noli (= ${PROJECT_VERSION}), libcgal-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libtbb-dev, libzip-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ headers and static libraries of Noli: exact continuous collision detection
 for CGAL users, verification of frames in memory or in a solver's loop,
 certified simulation, and proofs; with examples and a CMake package.")

@@ -4,7 +4,7 @@
     pip wheel --no-build-isolation --no-deps python/
 
 It needs no network. NOLI_BUILD names a build folder of CMake to use; default: build/wheel. The libraries of the system
-that the module is linked with (GMP, MPFR, oneTBB, fmt, pugixml, minizip) have to be where the wheel is installed.
+that the module is linked with (GMP, MPFR, oneTBB, fmt, pugixml, libzip) have to be where the wheel is installed.
 """
 
 import os
