@@ -139,7 +139,7 @@ std::vector<std::string> licence_violations(const std::vector<fs::path>& files) 
 std::vector<std::string> unexpected_libraries(std::string_view readelf_output) {
   static const std::regex needed(R"(\(NEEDED\)[^\[]*\[([^\]]*)\])");
   static const std::regex known(
-      R"((lib(gmp|gmpxx|mpfr|png16|pugixml|minizip|tbb|tbbmalloc|fmt|stdc\+\+|gcc_s|c|m|z|pthread|dl|rt))"
+      R"((lib(gmp|gmpxx|mpfr|png16|pugixml|zip|tbb|tbbmalloc|fmt|stdc\+\+|gcc_s|c|m|z|pthread|dl|rt))"
       R"(|lib(asan|ubsan|tsan))"
       R"(|ld-linux[-a-z0-9_]*)\.so.*)");
   const std::string text(readelf_output);
@@ -151,8 +151,7 @@ std::vector<std::string> unexpected_libraries(std::string_view readelf_output) {
 }
 
 std::vector<std::string> network_libraries(std::string_view ldd_output) {
-  static const std::regex network(
-      R"(\blib(hdf5|curl|gnutls|nettle|krb5|gssapi|ldap|lber|sasl|ssl|crypto|ssh|nghttp|aec)\S*)");
+  static const std::regex network(R"(\blib(hdf5|curl|gnutls|nettle|krb5|gssapi|ldap|lber|sasl|ssl|ssh|nghttp|aec)\S*)");
   const std::string text(ldd_output);
   return {std::sregex_token_iterator(text.begin(), text.end(), network), std::sregex_token_iterator()};
 }

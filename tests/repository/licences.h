@@ -39,7 +39,8 @@ std::vector<std::string> licence_violations(const std::vector<std::filesystem::p
 std::vector<std::string> unexpected_libraries(std::string_view readelf_output);
 
 /// The libraries listed by `ldd` that do not belong in a program that decides geometry: HDF5, and the libraries for
-/// networks, certificates and directories that its package brings.
+/// networks, certificates and directories that its package brings. libcrypto is not listed: libzip needs it, and it
+/// opens no connection.
 std::vector<std::string> network_libraries(std::string_view ldd_output);
 
 }  // namespace noli::repository

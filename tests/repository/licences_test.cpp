@@ -196,8 +196,8 @@ TEST(Licences, NeitherHdf5NorWhatItsPackageBringsIsInTheCommand) {
 TEST(Licences, APlantedNetworkIsFound) {
   const auto found = network_libraries(
       "\tlibgmp.so.10 => /lib/libgmp.so.10 (0x1)\n\tlibcurl-gnutls.so.4 => /lib/x (0x2)\n\tlibc.so.6 => /lib/c "
-      "(0x3)\n");
-  EXPECT_EQ(lines(found), "libcurl-gnutls.so.4\n");
+      "(0x3)\n\tlibcrypto.so.3 => /lib/y (0x4)\n\tlibssl.so.3 => /lib/z (0x5)\n");
+  EXPECT_EQ(lines(found), "libcurl-gnutls.so.4\nlibssl.so.3\n");
 }
 
 #ifdef NOLI_SERIES
