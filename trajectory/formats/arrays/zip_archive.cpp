@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t end_bytes = 22, end_locator_bytes = 20, end64_bytes = 56, entry_bytes = 46;
 constexpr std::uint64_t comment_bytes = 0xffff;  ///< the longest comment
-/// libzip keeps about ten times as much.
+/// libzip keeps about five times as much.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{1} << 24;
 
 /// The integer of `bytes` bytes that begins there.
