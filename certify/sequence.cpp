@@ -58,8 +58,20 @@ VerifyOptions SequenceVerifier::step_options() const {
   return options;
 }
 
-StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove,
-                                  ProofReceiver* receiver) {
+StepResult SequenceVerifier::step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove) {
+  return decide(x_t0, x_t1, prove, nullptr);
+}
+
+StepResult SequenceVerifier::step_for(std::span<const Position> x_t0, std::span<const Position> x_t1,
+                                      ProofReceiver& receiver) {
+  if (options_.only_new || options_.exclusions != nullptr) {
+    throw std::logic_error("step_for(): expected no only_new and no exclusions");
+  }
+  return decide(x_t0, x_t1, true, &receiver);
+}
+
+StepResult SequenceVerifier::decide(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove,
+                                    ProofReceiver* receiver) {
   if (options_.only_new) baseline(x_t0);
   take_back(x_t0);
   const std::uint64_t steps_before = steps_;
@@ -103,7 +115,8 @@ StepResult SequenceVerifier::part_of_step(std::span<const Position> x_t0, std::s
 
 StepResult SequenceVerifier::result_of(VerifyResult found, std::span<const Position> x_t0,
                                        std::span<const Position> x_t1) const {
-  StepResult result{std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof)};
+  StepResult result{
+      std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof), found.receiver_has_proof};
   result.rests = std::ranges::equal(x_t0, x_t1);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   return result;

@@ -362,25 +362,24 @@ class SequenceVerification : private Verification {
   /// What other chains found does not count, as each may be decided by itself.
   StepResult decide() {
     StepResult result =
-        reads_along() ? decide_for_reader() : verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
-    chain_proves_ = chain_proves_ && result.proof != nullptr;
+        writes_along() ? decide_and_write() : verifier_->step(sequence_.x_t0(), sequence_.x_t1(), chain_proves_);
+    chain_proves_ = chain_proves_ && (result.proof || result.receiver_has_proof);
     return result;
   }
 
-  /// Whether the checker gets the proof of this step while it is found. If there turns out to be none, the checker has
-  /// to begin again, so this is for the first step, and for frames that it can read again.
-  bool reads_along() const {
+  /// Whether the proof of this step is written while it is found. If there turns out to be none, a checker has to begin
+  /// again, so this is for the first step, and for frames that it can read again.
+  bool writes_along() const {
     return proof_ && outcome_.steps.empty() && chain_proves_ && request_.trajectory_pipe == nullptr;
   }
 
-  StepResult decide_for_reader() {
+  StepResult decide_and_write() {
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const MotionStep step = step_between(lines);
     StepProofs::Writer writer(*proof_, step);
-    StepResult result = verifier_->step(sequence_.x_t0(), sequence_.x_t1(), true, &writer);
-    proof_is_written_ = result.complete && result.proof != nullptr;
-    if (proof_is_written_) writer.commit();
-    if (!proof_is_written_ && writer.has_begun()) proof_.reset();
+    StepResult result = verifier_->step_for(sequence_.x_t0(), sequence_.x_t1(), writer);
+    result.receiver_has_proof ? writer.commit() : writer.discard();
+    outcome_.proof_seconds += writer.seconds();
     return result;
   }
 
@@ -421,7 +420,7 @@ class SequenceVerification : private Verification {
     const Stopwatch watch;
     begin_proof();
     if (witness_sought_ && request_.trajectory_pipe != nullptr) return;  // the checker reads no further
-    if (!goes_to_proof(result) || std::exchange(proof_is_written_, false)) return;
+    if (!goes_to_proof(result) || result.receiver_has_proof) return;
     const WorldLines lines = WorldLines::from_frames(sequence_.x_t0(), sequence_.x_t1());
     const MotionStep step = step_between(lines);
     if (request_.decided && request_.decided->in_parts()) {
@@ -529,7 +528,6 @@ class SequenceVerification : private Verification {
   std::vector<std::string> at_rest_;      ///< notes on steps in which nothing moves
   std::optional<StepResult> decided_;     ///< of the next step, if it is known already
   bool chain_proves_ = false;             ///< all steps of the chain so far have a proof
-  bool proof_is_written_ = false;         ///< of the step that was decided last
   bool ended_ = false;                    ///< the last frame has been read
   bool witness_sought_ = false;
   std::optional<TrajectoryFile> trajectory_;  ///< --trajectory

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
@@ -67,6 +69,8 @@ std::vector<std::string> CheckerProcess::command(const CheckRequest& request) {
 CheckerProcess::CheckerProcess(const CheckRequest& request)
     : checker_(request.checker),
       stop_(request.stop),
+      stop_of_thread_(stop_of_thread()),
+      deadline_(request.deadline),
       proof_(request.proof),
       progress_(request.progress),
       limits_{.time = no_limit,
@@ -85,7 +89,10 @@ void CheckerProcess::tell_progress() const {
 }
 
 bool CheckerProcess::stopped() const {
-  return stop_asked().has_value() || (stop_ != nullptr && stop_->load(std::memory_order_relaxed));
+  if (stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_)) return true;
+  return std::ranges::any_of(std::array{stop_, stop_of_thread_}, [](const std::atomic<bool>* stop) {
+    return stop != nullptr && stop->load(std::memory_order_relaxed);
+  });
 }
 
 void CheckerProcess::write(std::string_view bytes) {
@@ -133,6 +140,21 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
   return CheckerVerdict{end.code, std::move(end.out)};
 }
 
+void CheckerSink::write(std::string_view bytes) {
+  if (std::exchange(again_, false)) {
+    checker_ = &start_();
+    checker_->write(first_group_);
+  }
+  if (syncs_ < 2) first_group_ += bytes;
+  checker_->write(bytes);
+}
+
+void CheckerSink::sync() {
+  if (syncs_ < 2) ++syncs_;
+}
+
+void CheckerSink::truncate(std::uint64_t size) { again_ = size == first_group_.size(); }
+
 std::optional<CheckerVerdict> checked(const CheckRequest& request) {
   if (auto accepted = accepted_in_parts(request)) return accepted;
   return CheckerProcess(request).finish();
@@ -140,8 +162,10 @@ std::optional<CheckerVerdict> checked(const CheckRequest& request) {
 
 CheckerVerdict check_proof(const CheckRequest& request) {
   auto verdict = checked(request);
-  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
-  return *std::move(verdict);
+  if (verdict) return *std::move(verdict);
+  const bool late = request.deadline && std::chrono::steady_clock::now() >= *request.deadline;
+  const StopReason otherwise = late ? StopReason::out_of_time : StopReason::interrupted;
+  throw Stopped(stop_asked().value_or(otherwise), request.proof->string());
 }
 
 std::vector<fs::path> trajectory_for_checker(const std::vector<fs::path>& trajectory) {

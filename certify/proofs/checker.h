@@ -4,12 +4,14 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <noli/proof.h>
@@ -50,7 +52,8 @@ class CheckerProcess {
   [[noreturn]] void fail_as_refused();
 
   Checker checker_;
-  const std::atomic<bool>* stop_;
+  const std::atomic<bool>*stop_, *stop_of_thread_;  ///< of the thread that started it
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<std::filesystem::path> proof_;
   std::function<void(double)> progress_;
   ProgramLimits limits_;
@@ -62,18 +65,23 @@ class CheckerProcess {
 /// Throws as CheckerProcess.
 std::optional<CheckerVerdict> checked(const CheckRequest& request);
 
-/// Writes a proof to a running checker, which must outlive it.
+/// Writes a proof to a running checker.
 class CheckerSink : public Sink {
  public:
-  explicit CheckerSink(CheckerProcess& checker) : checker_(checker) {}
-  void write(std::string_view bytes) override { checker_.write(bytes); }
-  void sync() override {}
-  /// Bytes that were written cannot be taken back. The checker would reject a proof whose end should have been cut off;
-  /// its verdict is not used then.
-  void truncate(std::uint64_t /*size*/) override {}
+  /// `start`: starts a checker in place of the last one, and returns it; it must live until the next call.
+  explicit CheckerSink(std::function<CheckerProcess&()> start) : start_(std::move(start)), checker_(&start_()) {}
+  void write(std::string_view bytes) override;
+  void sync() override;
+  /// Bytes that were written cannot be taken back. If all but the first group is cut off, the next write() starts
+  /// another checker with that group. Otherwise the checker would reject the proof; its verdict is not used then.
+  void truncate(std::uint64_t size) override;
 
  private:
-  CheckerProcess& checker_;
+  std::function<CheckerProcess&()> start_;
+  CheckerProcess* checker_;
+  std::string first_group_;  ///< with what is before it
+  int syncs_ = 0;            ///< up to the end of the first group, which two of them commit
+  bool again_ = false;       ///< another checker has to be started
 };
 
 }  // namespace noli

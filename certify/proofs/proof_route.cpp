@@ -38,8 +38,8 @@ class ScratchFile : public FileSink {
 /// To a checker, of a proof that others have made.
 class JoinedSink : public CheckerSink {
  public:
-  JoinedSink(CheckerProcess& checker, std::function<void(const std::string&)> refuse)
-      : CheckerSink(checker), refuse_(std::move(refuse)) {}
+  JoinedSink(std::function<CheckerProcess&()> start, std::function<void(const std::string&)> refuse)
+      : CheckerSink(std::move(start)), refuse_(std::move(refuse)) {}
   void write(std::string_view bytes) override {
     try {
       CheckerSink::write(bytes);
@@ -177,9 +177,11 @@ std::unique_ptr<Sink> ProofRoute::to_file() const {
 
 std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
   if (!can_be_asked(claim)) return std::make_unique<NoSink>();
-  checker_.emplace(CheckRequest{.trajectory = trajectory(), .asked = fields_of(claim)});
-  if (request_.decided == nullptr) return std::make_unique<CheckerSink>(*checker_);
-  return std::make_unique<JoinedSink>(*checker_, [this](const std::string& problem) { refuse(problem); });
+  const CheckRequest asked{
+      .trajectory = trajectory(), .asked = fields_of(claim), .stop = request_.stop, .deadline = request_.deadline};
+  const auto start = [this, asked]() -> CheckerProcess& { return checker_.emplace(asked); };
+  if (request_.decided == nullptr) return std::make_unique<CheckerSink>(start);
+  return std::make_unique<JoinedSink>(start, [this](const std::string& problem) { refuse(problem); });
 }
 
 std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {

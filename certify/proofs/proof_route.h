@@ -7,8 +7,8 @@
 //   VerifyOutcome outcome = run_verify(request);
 //   route.check(outcome);                             // "no contact" becomes "proved"
 //
-// The checker reads the proof of the first step while it is found. If that step has none after all, another checker
-// begins anew.
+// Where frames in files go to the checker alone, it reads the proof of the first step while that is found. If the step
+// has no proof after all, another checker is started.
 //
 // With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
 // be taken back. So does that of a run that is being written: how many windows it has is known at the end. And that of

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "certify/proofs/largest_distance.h"
+#include "certify/stopwatch.h"
 
 namespace noli {
 namespace {
@@ -53,20 +54,27 @@ void StepProofs::write(const MotionStep& step, const StepProof& proof) {
 }
 
 void StepProofs::Writer::tokens(std::string_view bytes) {
+  const Stopwatch watch;
   if (!std::exchange(begun_, true)) begin();
   blocks_(bytes);
+  seconds_ += watch.seconds();
 }
 
 void StepProofs::Writer::begin() {
   proofs_.begin(step_, ProofFile::Kind::proof);
-  if (std::ranges::equal(proofs_.leaf_cells_, leaf_cells_)) return;
-  proofs_.file_.tree(encoded_tree(leaf_cells_));
-  proofs_.leaf_cells_.assign(leaf_cells_.begin(), leaf_cells_.end());
+  if (!std::ranges::equal(proofs_.leaf_cells_, leaf_cells_)) proofs_.file_.tree(encoded_tree(leaf_cells_));
 }
 
 void StepProofs::Writer::commit() {
+  const Stopwatch watch;
   blocks_.flush();
+  proofs_.leaf_cells_.assign(leaf_cells_.begin(), leaf_cells_.end());
   proofs_.commit();
+  seconds_ += watch.seconds();
+}
+
+void StepProofs::Writer::discard() {
+  if (begun_) proofs_.file_.discard();
 }
 
 bool StepProofs::copy(const MotionStep& step, const BlocksOfStep& blocks) {

@@ -51,6 +51,7 @@ class StepProofs {
   bool prove(const MotionStep& step, const WindowVerifier& verifier, const VerifyOptions& options);
   /// Writes a finished proof and commits it.
   void write(const MotionStep& step, const StepProof& proof);
+  /// Does the same with a proof that comes piece by piece.
   class Writer;
   void commit();
 
@@ -85,7 +86,7 @@ class StepProofs {
   MeshPaths paths_;
   ProofFile file_;
   bool tree_due_;                          ///< the next proof brings its tree
-  std::vector<std::uint32_t> leaf_cells_;  ///< of the last tree that write() wrote
+  std::vector<std::uint32_t> leaf_cells_;  ///< of the last tree from verify_step()
 };
 
 /// Takes the proof of a step while it is found. Both arguments must outlive this.
@@ -97,8 +98,10 @@ class StepProofs::Writer : public ProofReceiver {
   void tokens(std::string_view bytes) override;
   /// Makes the proof count.
   void commit();
-  /// Whether the step was begun in the file.
-  bool has_begun() const { return begun_; }
+  /// Drops what was written.
+  void discard();
+  /// Wall clock of writing, and so of waiting for whoever reads.
+  double seconds() const { return seconds_; }
 
  private:
   void begin();
@@ -107,6 +110,7 @@ class StepProofs::Writer : public ProofReceiver {
   const MotionStep& step_;
   std::span<const std::uint32_t> leaf_cells_;
   bool begun_ = false;
+  double seconds_ = 0;
   const std::function<void(std::string_view)> put_ = [this](std::string_view payload) {
     proofs_.file_.tokens(payload);
   };

@@ -21,6 +21,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -111,7 +112,8 @@ struct CheckRequest {
       {};                                   ///< the frames in the order of time, or a run's trajectory.blocks
   std::vector<std::string> asked = {};      ///< the fields after --require (proofs/FORMAT.md, section 6)
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the checker is ended
-  std::filesystem::path programs = {};      ///< the checkers' folder; empty: that of this program
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< the checker is ended then
+  std::filesystem::path programs = {};  ///< the checkers' folder; empty: that of this program
   /// At most so many processes at once, each for a part of the steps, if `proof` and `trajectory` are files; 0: as many
   /// as the machine has threads. Each has a mesh and frames of its own in memory. What they say is the same.
   int checkers = 1;

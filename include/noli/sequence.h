@@ -77,6 +77,7 @@ struct StepResult : Findings {
   std::optional<FirstInStep> first;
   bool goes_on = false;  ///< features met at the beginning of the step: they were counted before, and may be `first`
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions or only_new
+  bool receiver_has_proof = false;         ///< as in VerifyResult
   bool rests = false;                      ///< between two frames: they are equal
 };
 
@@ -96,9 +97,12 @@ class SequenceVerifier {
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before, or its x_t0 when that step
   /// touches and is tried again. add() then goes on from x_t1. Precondition and errors as for add(). `prove`: also fill
-  /// `proof`. `receiver`, for Noli itself: takes the proof while it is found; see VerifyOptions.
-  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false,
-                  ProofReceiver* receiver = nullptr);
+  /// `proof`.
+  StepResult step(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove = false);
+
+  /// For Noli itself: the next step, whose proof the receiver takes while it is found. Precondition: no `only_new` and
+  /// no `exclusions`. Throws what the receiver throws.
+  StepResult step_for(std::span<const Position> x_t0, std::span<const Position> x_t1, ProofReceiver& receiver);
 
   /// With `only_new`: the pairs of cells that intersect at the positions x of the first frame, in ascending order. All
   /// others are compared. add() and step() look for them in their first frame if it was not called before. If it is
@@ -116,6 +120,8 @@ class SequenceVerifier {
   VerifyOptions step_options() const;
 
  private:
+  StepResult decide(std::span<const Position> x_t0, std::span<const Position> x_t1, bool prove,
+                    ProofReceiver* receiver);
   /// A step that touches and may be tried again: where it began, and what was known before it.
   struct Rejected {
     std::vector<Position> x_t0;

@@ -82,11 +82,12 @@ struct VerifyRequest {
   std::optional<std::filesystem::path> trajectory;  ///< a file that all frames are written to, for checkers
   std::optional<std::filesystem::path> proof;       ///< the file where the user wants it, as reports name it
   bool check = true;                                ///< the checker looks at the proof: reports say whether it did
-  /// Where the proof of a claim is written to; empty: none is made. See proof_to_file(). Called once at most, or with
-  /// `open_proof_at_once` twice.
+  /// Where the proof of a claim is written to, called once at most; empty: none is made. See proof_to_file(). The sink
+  /// is called from any thread, one at a time, also while `progress` is.
   std::function<std::unique_ptr<Sink>(const Claim&)> open_proof;
-  /// Call open_proof before the first step of frames is decided, so that the checker reads frames and proof meanwhile.
-  /// If this step turns out to have no proof, open_proof is called again, and what the first sink got does not count.
+  /// Call open_proof before the first step of frames is decided, and write the proof of this step while it is found
+  /// (not with a least distance, exclusions, `only_new`, or frames in no file), so that a checker reads them meanwhile.
+  /// If the step has no proof after all, the sink is truncated to the length that it had before.
   bool open_proof_at_once = false;
 
   // For `noli verify` itself.

@@ -86,14 +86,15 @@ class Verification {
     const Group root = prepared_->hierarchy().root();
     walk.cut(root.count, [&](auto& top) { return top.run({root, root}); });
     walk.keep(options_.part);
-    const std::size_t unproved = settle(walk);
+    const std::size_t first_kept = settle(walk);
     auto& sum = walk.sum();
     VerifyResult result{sum.tally.findings(sum.finished), std::nullopt, nullptr};
     if (const auto first = sum.tally.earliest.first()) result.first = first->contact;
     if constexpr (Out::on) {
       if (result.complete && !result.touches()) {
-        result.proof = prove(walk, unproved);
+        result.proof = prove(walk, first_kept);
         result.complete = result.proof != nullptr || !stop_.raised();
+        if (result.proof && options_.receiver != nullptr) pass_on(result);
       }
     }
     if (options_.chain != nullptr) *options_.chain = std::move(memory_);
@@ -121,13 +122,20 @@ class Verification {
     return walk.first_task();
   }
 
+  /// Passes the rest of the proof on.
+  void pass_on(VerifyResult& result) const {
+    result.proof->tokens.give([this](std::string_view bytes) { options_.receiver->tokens(bytes); });
+    result.proof.reset();
+    result.receiver_has_proof = true;
+  }
+
   /// Joins the tokens from task `first` on. Nothing if no direction separates some of the remaining parts, or it was
   /// stopped.
   std::shared_ptr<const StepProof> prove(Walk& walk, std::size_t first) const {
     auto proof = std::make_shared<StepProof>();
     const auto order = prepared_->hierarchy().leaf_cells();
     const auto& [index, of] = options_.part;
-    if (index == 0 && options_.receiver == nullptr) proof->leaf_cells.assign(order.begin(), order.end());
+    if (index == 0) proof->leaf_cells.assign(order.begin(), order.end());
     const auto& tasks = walk.tasks();
     const std::size_t end = walk.first_task() + walk.task_count(), count = end - first;
     JoinedTokens& all = proof->tokens;
@@ -140,12 +148,7 @@ class Verification {
     parallel_for(count, options_.threads, [&](std::size_t i) {
       if (whole && !close_open_parts(walk.outcome(first + i).out, all.inserted[i])) whole = false;
     });
-    if (!whole) return nullptr;
-    if (options_.receiver != nullptr) {
-      all.give([this](std::string_view bytes) { options_.receiver->tokens(bytes); });
-      all = {};
-    }
-    return proof;
+    return whole ? proof : nullptr;
   }
 
   bool close_open_parts(WalkTokens<Dim, Out>& out, JoinedTokens& tokens) const {

@@ -61,8 +61,8 @@ struct StepPart {
   std::uint32_t index = 0, of = 1;
 };
 
-/// Takes the proof of a step while the step is decided: the tree, then the tokens in order. Its functions are called from
-/// any thread, one at a time. If the step turns out to have no proof, what they got counts for nothing.
+/// Takes the proof of a step while the step is decided: the tree, then the tokens in order. It is called from any
+/// thread, one at a time. If the step turns out to have no proof, what it got counts for nothing.
 class ProofReceiver {
  public:
   ProofReceiver() = default;
@@ -107,8 +107,9 @@ struct VerifyResult : Findings {
   /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
   /// Set if `prove` was set, the step, or the part, is complete, and nothing touches in it; unless parts come so near
-  /// each other that no proof was found. It is empty if a receiver took it.
+  /// each other that no proof was found. Not set if a receiver took the proof.
   std::shared_ptr<const StepProof> proof;
+  bool receiver_has_proof = false;  ///< the receiver took the whole proof
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is

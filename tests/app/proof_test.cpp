@@ -265,8 +265,23 @@ TEST_F(Proof, AContactFoundLateInTheFirstStepIsChecked) {
     EXPECT_EQ(verify({a, b}, {"--threads", threads, "--json", file, "--force"}).exit_code, 1);
     const Json result = Json::parse(read_text(file));
     EXPECT_EQ(result["proof"]["witnesses"], 1);
-    EXPECT_EQ(result["stages"]["cell_pairs"], 1);
-    EXPECT_EQ(verify({b, c}, {"--threads", threads}).exit_code, 0);
+    EXPECT_EQ(verify({b, c}, {"--threads", threads}).verdict_line().substr(0, 8), "PROVED  ");
+  }
+}
+
+TEST_F(Proof, GoesToTheCheckerForEachKindOfQuestion) {
+  const std::vector<std::string> questions = {"--strict",     "--points",   "--static",    "--first-only",
+                                              "--keep-going", "--only-new", "--threads=1", "--dimension=3"};
+  const auto apart = triangles({1, 0.5, 0.25});
+  for (const std::string& question : questions) {
+    EXPECT_EQ(verify(apart, {question}).verdict_line().substr(0, 8), "PROVED  ") << question;
+  }
+  const auto touching = triangles({1, -2, 0.5});
+  for (const std::string& question : questions) {
+    if (question == "--static") continue;  // each frame by itself is free of contact
+    const Process contact = verify(touching, {question, "-v"});
+    EXPECT_EQ(contact.exit_code, 1) << question;
+    EXPECT_NE(contact.out.find("refuted: in step 1, "), std::string::npos) << question << contact.out;
   }
 }
 

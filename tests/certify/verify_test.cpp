@@ -3,20 +3,28 @@
 // Verifies files of frames through the public interface: outcome, proof, progress, stops.
 #include <noli/verify.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <noli/errors.h>
 #include "certify/proofs/checker.h"
 #include "certify/shards/shards.h"
 #include "tests/support/temporary_folder.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
@@ -91,6 +99,84 @@ TEST_F(VerifyInProcess, WritesItsProofWhereItIsTold) {
   EXPECT_GT(std::filesystem::file_size(proof), 100U);
 }
 
+/// Keeps the bytes of a proof, and counts what is asked of it.
+struct Asked {
+  std::string bytes;
+  int opened = 0;
+  std::uint64_t dropped = 0;  ///< bytes that were taken back
+
+  std::unique_ptr<Sink> open() {
+    class Kept : public Sink {
+     public:
+      explicit Kept(Asked& asked) : asked_(asked) {}
+      void write(std::string_view bytes) override { asked_.bytes += bytes; }
+      void sync() override {}
+      void truncate(std::uint64_t size) override {
+        asked_.dropped += asked_.bytes.size() - size;
+        asked_.bytes.resize(size);
+      }
+
+     private:
+      Asked& asked_;
+    };
+    ++opened;
+    return std::make_unique<Kept>(*this);
+  }
+};
+
+TEST_F(VerifyInProcess, WritesTheSameProofAtOnce) {
+  for (const double x : {1.5, 0.25}) {
+    std::array<Asked, 2> asked;
+    for (const bool at_once : {false, true}) {
+      VerifyRequest request = falling(x);
+      request.keep_going = true;
+      if (x < 1) std::swap(request.frames[1], request.frames[2]);  // so the first step touches
+      request.open_proof = [&](const Claim&) { return asked[at_once ? 1 : 0].open(); };
+      request.open_proof_at_once = at_once;
+      const VerifyOutcome outcome = run_verify(request);
+      EXPECT_EQ(outcome.touches(), x < 1);
+      EXPECT_EQ(outcome.witnesses, x < 1 ? 2U : 0U);
+    }
+    EXPECT_EQ(asked[0].opened, 1);
+    EXPECT_EQ(asked[1].opened, 1);
+    EXPECT_EQ(asked[0].dropped, 0U);
+    EXPECT_TRUE(asked[0].bytes == asked[1].bytes) << asked[0].bytes.size() << ", " << asked[1].bytes.size();
+  }
+}
+
+/// 4,000 triangles side by side, and behind them two that meet.
+TEST_F(VerifyInProcess, TakesBackWhatItWroteBeforeTheContact) {
+  const auto frame = [&](const std::string& name, double height) {
+    std::string vertices, faces;
+    auto add = [&, v = 1](double x, double z) mutable {
+      for (const auto& [dx, y] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.0, 0.5}}) {
+        vertices += fmt::format("v {} {} {}\n", x + dx, y, z);
+      }
+      faces += fmt::format("f {} {} {}\n", v, v + 1, v + 2);
+      v += 3;
+    };
+    for (int i = 0; i < 4000; ++i) add(i, 0);
+    add(4000, 0);
+    add(4000, height);
+    return folder.write(name, vertices + faces);
+  };
+  VerifyRequest request;
+  request.frames = {frame("a.obj", 1), frame("b.obj", -1)};
+  request.threads = 1;
+  std::array<Asked, 2> asked;
+  for (const bool at_once : {false, true}) {
+    request.open_proof = [&](const Claim&) { return asked[at_once ? 1 : 0].open(); };
+    request.open_proof_at_once = at_once;
+    const VerifyOutcome outcome = run_verify(request);
+    EXPECT_EQ(outcome.verdict, Verdict::contact);
+    EXPECT_EQ(outcome.witnesses, 1U);
+  }
+  EXPECT_EQ(asked[0].dropped, 0U);
+  EXPECT_GT(asked[1].dropped, 10'000U);
+  EXPECT_EQ(asked[1].opened, 1);
+  EXPECT_TRUE(asked[0].bytes == asked[1].bytes);
+}
+
 TEST_F(VerifyInProcess, TellsItsProgress) {
   VerifyRequest request = falling(1.5);
   std::set<std::string> works;
@@ -127,6 +213,56 @@ TEST_F(VerifyInProcess, AProofThatAStopHasCutIsNotJudged) {
   cut.write("no proof");
   stop = false;
   EXPECT_FALSE(cut.finish().has_value());
+}
+
+/// What is taken back after the first group makes another checker begin; anything else does not.
+TEST_F(VerifyInProcess, ACheckerBeginsAgain) {
+  const VerifyRequest request = falling(1.5);
+  std::optional<CheckerProcess> checker;
+  int started = 0;
+  CheckerSink sink([&]() -> CheckerProcess& {
+    ++started;
+    return checker.emplace(CheckRequest{.trajectory = request.frames, .programs = NOLI_PROGRAMS});
+  });
+  sink.write("first ");
+  sink.sync();
+  sink.write("group");
+  sink.sync();
+  sink.write(" and more");
+  sink.truncate(12);
+  sink.write(" than that");
+  EXPECT_EQ(started, 1);
+  sink.truncate(11);
+  EXPECT_EQ(started, 1) << "nobody may need another one";
+  sink.write(" and other");
+  EXPECT_EQ(started, 2);
+  EXPECT_EQ(checker->finish()->code, 3);
+}
+
+/// A checker that reads nothing holds nobody up: threads that write to it hear what the thread that started it hears.
+TEST_F(VerifyInProcess, AThreadThatWritesToACheckerHearsStops) {
+  const auto program = folder.write("noli_check", "#!/bin/sh\nexec sleep 60\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string proof(1 << 20, ' ');
+  const auto write = [&](const CheckRequest& asked, const std::function<void()>& meanwhile) {
+    CheckerProcess checker(asked);
+    auto writer = std::async(std::launch::async, [&] { checker.write(proof); });
+    meanwhile();
+    writer.get();
+    EXPECT_FALSE(checker.finish().has_value());
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  std::atomic<bool> stop = false;
+  CheckRequest asked{.stop = &stop, .programs = program.parent_path()};
+  write(asked, [&] { stop = true; });
+  asked.stop = nullptr;
+  asked.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+  write(asked, [] {});
+  asked.deadline.reset();
+  std::atomic<bool> stop_here = false;
+  const StopOfThread of_thread(stop_here);
+  write(asked, [&] { stop_here = true; });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
 TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {

@@ -23,11 +23,13 @@ class Taken : public ProofReceiver {
   void tokens(std::string_view piece) override {
     EXPECT_FALSE(busy_.exchange(true)) << "two threads at once";
     bytes += piece;
+    if (stop != nullptr) *stop = true;
     busy_ = false;
   }
 
   std::vector<std::uint32_t> order;
   std::string bytes;
+  std::atomic<bool>* stop = nullptr;  ///< raised by the first tokens
 
  private:
   std::atomic<bool> busy_ = false;
@@ -61,7 +63,7 @@ VerifyResult proved(const Step& step, int threads, ProofReceiver* receiver) {
 
 TEST(EarlyTokens, AreThoseOfTheWholeProof) {
   std::vector<Step> steps = {sheets_and_edges(false), two_sheets(7, 3, 0)};
-  steps.emplace_back().face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});  // one cell: the walk ends at its top
+  steps.emplace_back().face({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   for (const Step& step : steps) {
     const VerifyResult whole = proved(step, 1, nullptr);
     ASSERT_TRUE(whole.proof);
@@ -70,8 +72,8 @@ TEST(EarlyTokens, AreThoseOfTheWholeProof) {
     for (const int threads : {1, 2, 5}) {
       Taken taken;
       const VerifyResult result = proved(step, threads, &taken);
-      ASSERT_TRUE(result.complete && result.proof);
-      EXPECT_TRUE(result.proof->leaf_cells.empty()) << "the receiver has it";
+      ASSERT_TRUE(result.complete && result.receiver_has_proof);
+      EXPECT_FALSE(result.proof);
       EXPECT_EQ(taken.order, whole.proof->leaf_cells);
       EXPECT_TRUE(taken.bytes == bytes) << taken.bytes.size() << " of " << bytes.size() << " bytes";
       EXPECT_EQ(result.obligations, whole.obligations);
@@ -86,7 +88,7 @@ TEST(EarlyTokens, CountForNothingIfSomethingTouchesLater) {
     const VerifyResult result = proved(step, threads, &taken);
     EXPECT_TRUE(result.complete);
     EXPECT_EQ(result.contact_count(), 1u);
-    EXPECT_FALSE(result.proof);
+    EXPECT_FALSE(result.proof || result.receiver_has_proof);
     EXPECT_FALSE(taken.bytes.empty()) << "the edges are behind most of the faces";
   }
 }
@@ -98,17 +100,23 @@ TEST(EarlyTokens, EndWithTheErrorOfTheReceiver) {
   }
 }
 
+/// The first tokens raise the stop, so they came before the end.
 TEST(EarlyTokens, EndWithAStop) {
-  const Step step = two_sheets(7, 60, 0);
-  std::atomic<bool> stop = true;
+  const Step step = sheets_and_edges(false);
+  Taken all;
+  ASSERT_TRUE(proved(step, 1, &all).receiver_has_proof);
+  std::atomic<bool> stop = false;
   VerifyOptions options;
+  options.threads = 1;
   options.prove = true;
   options.stop = &stop;
   Taken taken;
+  taken.stop = &stop;
   options.receiver = &taken;
   const VerifyResult result = verify_step(step.mesh, step.x_t0, step.x_t1, options);
-  EXPECT_FALSE(result.complete || result.proof);
-  EXPECT_TRUE(taken.bytes.empty());
+  EXPECT_FALSE(result.complete || result.proof || result.receiver_has_proof);
+  EXPECT_LT(taken.bytes.size(), all.bytes.size() / 2);
+  EXPECT_TRUE(all.bytes.starts_with(taken.bytes));
 }
 
 }  // namespace
