@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr FourLetters content = four_letters("SHRD");
 constexpr FourLetters task_kind = four_letters("TASK");
+constexpr const char* remove_it = "remove it, and run `noli verify --shard` again";
 
 /// Copies the groups of a proof behind its claim.
 void copy_steps(const fs::path& proof, BlockWriter& to) {
@@ -86,24 +87,33 @@ void write_part_shard(const fs::path& file, Json head, const StepProof* proof) {
 ShardReader::ShardReader(const fs::path& file, const std::string& request_hash, std::uint64_t task)
     : reader_(file, content) {
   const std::uint64_t groups = BlockReader(file, content).look_at_commits().count;
-  const auto block = reader_.next();
+  const auto block = next_block();
   if (block && block->kind == task_kind) head_ = Json::parse(block->payload, nullptr, false);
   const auto has = [this](const char* member, const Json& value) {
     return head_.is_object() && head_.contains(member) && head_[member] == value;
   };
   if (!has("format", "noli shard") || !has("version", 1)) {
-    throw InputError(file.string(), "", "is not a shard; expected a file that `noli verify --shard` wrote");
+    throw InputError(file.string(), "", std::string("is not a shard; ") + remove_it);
   }
   if (!has("request", request_hash)) {
-    throw InputError(file.string(), "", "is a shard of another request than request.json beside it");
+    throw InputError(file.string(), "",
+                     std::string("is a shard of another request than request.json beside it; ") + remove_it);
   }
   if (!has("task", task)) {
-    throw InputError(file.string(), "", fmt::format("is the shard of another task than {}", task + 1));
+    throw InputError(file.string(), "", fmt::format("is the shard of another task than {}; {}", task + 1, remove_it));
   }
-  reader_.next();  // its commit
-  next_ = reader_.next();
+  next_block();  // its commit
+  next_ = next_block();
   if (!has("groups", groups - 1) || reader_.committed().groups == 0) {
-    throw InputError(file.string(), "", "is cut off; remove it, and run `noli verify --shard` again");
+    throw InputError(file.string(), "", std::string("is cut off; ") + remove_it);
+  }
+}
+
+std::optional<Block> ShardReader::next_block() {
+  try {
+    return reader_.next();
+  } catch (const InputError& damage) {
+    throw InputError(damage, remove_it);
   }
 }
 
@@ -133,10 +143,10 @@ std::optional<std::uint64_t> ShardReader::next_step() const {
 
 void ShardReader::blocks(std::uint64_t step, const std::function<void(FourLetters, std::string_view)>& take) {
   for (auto number = next_step(); number && *number <= step; number = next_step()) {
-    for (; next_ && next_->kind != block_format::commit; next_ = reader_.next()) {
+    for (; next_ && next_->kind != block_format::commit; next_ = next_block()) {
       if (*number == step) take(next_->kind, next_->payload);
     }
-    next_ = reader_.next();
+    next_ = next_block();
   }
 }
 

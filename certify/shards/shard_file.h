@@ -70,6 +70,7 @@ class ShardReader {
   void blocks(std::uint64_t step, const std::function<void(FourLetters, std::string_view)>& take);
 
  private:
+  std::optional<Block> next_block();
   /// Number of the step whose blocks come next; nothing at the end.
   std::optional<std::uint64_t> next_step() const;
 

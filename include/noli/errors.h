@@ -29,6 +29,8 @@ class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, const std::string& place, const std::string& problem)
       : std::runtime_error(on_one_line(place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem)) {}
+  /// The same error, with what to do about it.
+  InputError(const InputError& error, const std::string& advice) : std::runtime_error(error.what() + ("; " + advice)) {}
 };
 
 /// A frame has another mesh than those before it: thrown by what reads frames of one mesh.

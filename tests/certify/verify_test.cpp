@@ -109,7 +109,7 @@ struct Asked {
     class Kept : public Sink {
      public:
       explicit Kept(Asked& asked) : asked_(asked) {}
-      void write(std::string_view bytes) override { asked_.bytes += bytes; }
+      void write(std::string_view piece) override { asked_.bytes += piece; }
       void sync() override {}
       void truncate(std::uint64_t size) override {
         asked_.dropped += asked_.bytes.size() - size;
