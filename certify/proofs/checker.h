@@ -23,13 +23,13 @@ namespace noli {
 /// Whether the checker was built with this program.
 bool has_checker(Checker checker);
 
-/// A running checker. It does not get the signals of the terminal: this process gets them and ends it. The destructor
-/// ends it if it has not ended.
 /// A checker ended with a verdict before it had read all of the proof.
 struct ProofRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A running checker. It does not get the signals of the terminal: this process gets them and ends it. The destructor
+/// ends it if it has not ended.
 class CheckerProcess {
  public:
   /// Starts it. Throws UsageError when there is no verified checker, std::runtime_error when there is no plain one.
@@ -52,7 +52,7 @@ class CheckerProcess {
   [[noreturn]] void fail_as_refused();
 
   Checker checker_;
-  const std::atomic<bool>*stop_, *stop_of_thread_;  ///< of the thread that started it
+  const std::atomic<bool>*stop_, *stop_of_thread_;  ///< the second: of the thread that started it
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<std::filesystem::path> proof_;
   std::function<void(double)> progress_;

@@ -24,7 +24,7 @@ class ShardMotion {
   ShardMotion(const ShardMotion&) = delete;
   ShardMotion& operator=(const ShardMotion&) = delete;
 
-  /// How many steps there are now. Throws InputError if there are none, unless the request has `follow`.
+  /// The number of steps so far. Throws InputError if it is 0, unless the request has `follow`.
   virtual std::uint64_t step_count() = 0;
   /// Waits until the motion has at least `count` steps, or gets no more: a run may still be being written. Ends early
   /// if `needed` returns false. Throws Stopped.

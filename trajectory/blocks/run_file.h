@@ -179,7 +179,7 @@ class RunReader {
   /// before ended is then not checked, nor are the hashes of what was skipped. Precondition: windows() <= window.
   /// Throws InputError when the file has fewer windows.
   void skip_to(std::uint64_t window);
-  /// The same for the next window alone. False if there is none.
+  /// Skips the next window alone, with as few checks. Returns false at the end of the run.
   bool skip_window();
   /// The same for all windows up to this commit, which committed() of another reader of the run gave. Throws InputError
   /// when the file is too short now.
