@@ -90,6 +90,24 @@ void require_startable(const std::string& program) {
   if (::access(program.c_str(), X_OK) != 0) fail(program + " cannot be started");
 }
 
+ssize_t write_to_pipe(int descriptor, std::string_view bytes) {
+  sigset_t pipe, before, pending;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  ::sigpending(&pending);  // one that is pending already is not ours
+  ::pthread_sigmask(SIG_BLOCK, &pipe, &before);
+  const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+  const int error = errno;
+  if (written < 0 && error == EPIPE && sigismember(&pending, SIGPIPE) == 0) {
+    constexpr timespec at_once{};
+    while (::sigtimedwait(&pipe, nullptr, &at_once) < 0 && errno == EINTR) {
+    }
+  }
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  errno = error;
+  return written;
+}
+
 bool Patience::is_over() {
   const Clock::time_point now = Clock::now();
   left_ -= std::min<nanoseconds>(now - std::exchange(last_, now), std::chrono::seconds(1));
@@ -144,7 +162,7 @@ void Child::look(nanoseconds pause, bool to_write) {
 Child::Written Child::write(std::string_view bytes, const ProgramLimits& limits) {
   Patience patience(limits.time);
   while (!bytes.empty()) {
-    const ssize_t written = ::write(pipes_[0].get(), bytes.data(), bytes.size());
+    const ssize_t written = write_to_pipe(pipes_[0].get(), bytes);
     if (written > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
       patience = Patience(limits.time);

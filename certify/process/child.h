@@ -62,6 +62,10 @@ struct ProgramEnd {
 /// Throws std::system_error, as Child does, when this is not a program that can be started.
 void require_startable(const std::string& program);
 
+/// write(2) to a pipe. Where the other end is closed it fails with EPIPE, and raises no SIGPIPE, which would end the
+/// program that this library is part of.
+ssize_t write_to_pipe(int descriptor, std::string_view bytes);
+
 /// Counts down a time limit.
 class Patience {
  public:

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "certify/process/child.h"
 #include "trajectory/stop.h"
 
 namespace noli {
@@ -116,7 +117,7 @@ std::optional<int> TrajectoryPipe::open() const {
 /// False when nobody reads it any more.
 bool TrajectoryPipe::write(int end, std::string_view bytes) const {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(end, bytes.data(), bytes.size());
+    const ssize_t written = write_to_pipe(end, bytes);
     if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     if (written >= 0 || errno == EINTR) continue;
     if (errno != EAGAIN) return false;

@@ -42,6 +42,17 @@ TEST(Children, HowMuchOfAFileItHasReadIsTold) {
   EXPECT_EQ(child.share_read(folder / "missing"), std::nullopt);
 }
 
+TEST(Children, OneThatReadsNoMoreRaisesNoSignalHere) {
+  const auto before = std::signal(SIGPIPE, SIG_DFL);  // it would end this program
+  Child child({"/bin/sh", "-c", "exit 0"}, {.in = Child::piped, .out = Child::piped});
+  EXPECT_EQ(child.write(std::string(1 << 20, ' '), {}), Child::Written::refused);
+  EXPECT_TRUE(child.finish({}).exited_with(0));
+  sigset_t pending;
+  ::sigpending(&pending);
+  EXPECT_EQ(sigismember(&pending, SIGPIPE), 0);
+  std::signal(SIGPIPE, before);
+}
+
 TEST(Children, OneThatSomebodyElseWaitedForIsAnErrorAndNoEnd) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);  // the system reaps the child
   Child child({"/bin/sh", "-c", "exit 0"}, {.out = Child::piped});
