@@ -109,6 +109,8 @@ void CheckerProcess::fail_as_refused() {
   std::optional<CheckerVerdict> verdict;
   try {
     verdict = finish();
+  } catch (const HelperError&) {
+    throw;  // not an error of this program
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(problem + ": " + error.what());
   }

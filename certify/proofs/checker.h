@@ -38,7 +38,8 @@ class CheckerProcess {
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
   /// Writes the next bytes of the proof. After a stop nothing more is written; finish() then returns nothing. Throws
-  /// ProofRefused when the checker stops reading with a verdict, std::runtime_error when it does without one.
+  /// ProofRefused when the checker stops reading with a verdict, HelperError when the machine failed it,
+  /// std::runtime_error otherwise.
   void write(std::string_view bytes);
   /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(): its
   /// verdict is then not about the whole proof. Throws HelperError when the machine failed it (memory, a signal);

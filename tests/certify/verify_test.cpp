@@ -265,6 +265,17 @@ TEST_F(VerifyInProcess, AThreadThatWritesToACheckerHearsStops) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
+/// Whoever writes to a checker hears that the machine failed it, as whoever waits for it does.
+TEST_F(VerifyInProcess, ACheckerThatTheMachineFailedWhileItReadIsAHelpersError) {
+  const std::string proof(1 << 20, ' ');
+  for (const char* const end : {"kill -KILL $$", "echo 'out of memory'; exit 4"}) {
+    const auto program = folder.write("noli_check", std::string("#!/bin/sh\n") + end + "\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    CheckerProcess checker(CheckRequest{.programs = program.parent_path()});
+    EXPECT_THROW(checker.write(proof), HelperError) << end;
+  }
+}
+
 TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {
   const VerifyRequest goes_on = falling(1.5);
   VerifyRequest stopped = goes_on;
