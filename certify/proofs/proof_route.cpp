@@ -78,6 +78,7 @@ ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
   }
   can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
   file_ = request.proof;
+  if (file_ && request.decided) file_ = unfinished_.emplace(*file_).path();
   // Steps that are decided already take less time than their checker, so several checkers share them out.
   const bool joined = request.decided && !pipe_ && request.threads != 1;
   const bool later = request.min_distance > 0 || request.follow || request.live;
@@ -117,6 +118,11 @@ std::vector<fs::path> ProofRoute::trajectory() const {
 }
 
 void ProofRoute::check(VerifyOutcome& outcome) {
+  check_proof_of(outcome);
+  if (unfinished_ && fs::exists(unfinished_->path())) unfinished_->finish();
+}
+
+void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
   if (request_.check) outcome.not_checked = why_not(outcome);
   const bool refuted = outcome.verdict == Verdict::contact || outcome.verdict == Verdict::too_near;
   const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);

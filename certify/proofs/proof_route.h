@@ -12,7 +12,8 @@
 //
 // With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
 // be taken back. So does that of a run that is being written: how many windows it has is known at the end. And that of
-// steps which shards decided, so that several checkers share it out.
+// steps which shards decided, so that several checkers share it out. A file with a proof of those has its name once the
+// proof is complete: a job that was killed before can be run again by the same command.
 #pragma once
 
 #include <filesystem>
@@ -23,6 +24,7 @@
 
 #include <noli/verify.h>
 #include "certify/process/scratch_folder.h"
+#include "certify/process/unfinished_file.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/trajectory_pipe.h"
 
@@ -38,6 +40,7 @@ class ProofRoute {
   void check(VerifyOutcome& outcome);
 
  private:
+  void check_proof_of(VerifyOutcome& outcome);
   [[noreturn]] void refuse(const std::string& problem) const;
   void require_claim(const Claim& asked, const std::string& words, bool refuted) const;
   bool frames_are_streamed() const;
@@ -52,6 +55,7 @@ class ProofRoute {
   VerifyRequest& request_;
   bool can_check_ = false;
   std::optional<ScratchFolder> folder_;
+  std::optional<UnfinishedFile> unfinished_;
   std::optional<std::filesystem::path> file_;
   std::optional<TrajectoryPipe> pipe_;  ///< of a motion that is in no file which checkers read
   std::optional<CheckerProcess> checker_;

@@ -6,6 +6,7 @@
 
 #include <sys/stat.h>
 
+#include "tests/app/runs/killer.h"
 #include "tests/app/runs/wild_run.h"
 #include "tests/app/sequences.h"
 
@@ -98,6 +99,23 @@ TEST_F(Shards, ProofsOfShardsAreAcceptedByBothCheckers) {
   if (verified_checker_is_there()) {
     EXPECT_EQ(run_noli(joined({"check", "--verified", folder.path("all.noli")}, asked)).exit_code, 0);
   }
+}
+
+/// A merge that is killed, by the time limit of a queue say, leaves no proof in the way of the next one.
+TEST_F(Shards, AMergeThatWasKilledIsRunAgain) {
+  const Words asked = write_motion(40);
+  const std::string proof = folder.path("all.noli");
+  ASSERT_EQ(whole(asked).exit_code, 0);
+  ASSERT_EQ(part(asked, "1/1").exit_code, 0);
+  const auto is_whole = [&] { return bytes_of(proof) == bytes_of(folder.path("one.noli")); };
+  int kills = 0;
+  for (std::chrono::milliseconds pause{2}; !run_and_kill({"merge", shards(), "--proof", proof}, pause); pause *= 2) {
+    ++kills;
+    EXPECT_TRUE(!fs::exists(proof) || is_whole()) << "after " << pause.count() << " ms";
+    fs::remove(proof);  // it was killed after its end
+  }
+  EXPECT_GT(kills, 0);
+  EXPECT_TRUE(is_whole());
 }
 
 TEST_F(Shards, WithoutProofsGiveNoContact) {
