@@ -135,7 +135,8 @@ class Verification {
     auto proof = std::make_shared<StepProof>();
     const auto order = prepared_->hierarchy().leaf_cells();
     const auto& [index, of] = options_.part;
-    if (index == 0) proof->leaf_cells.assign(order.begin(), order.end());
+    // A receiver has the tree.
+    if (index == 0 && options_.receiver == nullptr) proof->leaf_cells.assign(order.begin(), order.end());
     const auto& tasks = walk.tasks();
     const std::size_t end = walk.first_task() + walk.task_count(), count = end - first;
     JoinedTokens& all = proof->tokens;
