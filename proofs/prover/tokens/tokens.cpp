@@ -46,10 +46,15 @@ std::string encoded_join(std::span<const std::string> trees) {
 }
 
 void Tokens::add_piece(std::size_t bytes) {
-  constexpr std::size_t first_size = 1024;  // many lists are short
-  if (!pieces_.empty()) pieces_.back().size = used();
-  // Less than longest_piece, so that a place at its end differs from one at the beginning of the next piece.
-  const std::size_t size = std::max(pieces_.empty() ? first_size : longest_piece - 1, bytes);
+  // Many lists are short, so pieces begin short and double: at most about half of a list is unused.
+  constexpr std::size_t first_size = 1024;
+  std::size_t size = first_size;
+  if (!pieces_.empty()) {
+    // Less than longest_piece, so that a place at its end differs from one at the beginning of the next piece.
+    size = std::min(2 * static_cast<std::size_t>(limit_ - pieces_.back().bytes.get()), longest_piece - 1);
+    pieces_.back().size = used();
+  }
+  size = std::max(size, bytes);
   pieces_.push_back({std::make_unique_for_overwrite<char[]>(size), size});
   end_ = pieces_.back().bytes.get();
   limit_ = end_ + size;
