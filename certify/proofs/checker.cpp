@@ -100,25 +100,20 @@ void CheckerProcess::write(std::string_view bytes) {
   if (cut_) return;
   const Child::Written written = child_.write(bytes, limits_);
   cut_ = written == Child::Written::stopped;
-  if (written == Child::Written::refused) fail_as_refused();
+  if (written == Child::Written::refused) end_early();
 }
 
-/// With its last words before it ended, if any.
-void CheckerProcess::fail_as_refused() {
-  const std::string problem = fmt::format("{} reads no more of the proof", name_of(checker_));
-  std::optional<CheckerVerdict> verdict;
-  try {
-    verdict = finish();
-  } catch (const HelperError&) {
-    throw;  // not an error of this program
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(problem + ": " + error.what());
+/// It reads no more. Without a verdict a stop came before its end.
+void CheckerProcess::end_early() {
+  const auto verdict = finish();
+  if (verdict) {
+    throw ProofRefused(fmt::format("{} reads no more of the proof: {}", name_of(checker_), first_line(verdict->words)));
   }
-  if (verdict) throw ProofRefused(problem + ": " + first_line(verdict->words));
-  throw std::runtime_error(problem);
+  cut_ = true;
 }
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {
+  if (std::exchange(ended_, true)) return std::nullopt;  // a stop came while it was written to
   ProgramEnd end = child_.finish(limits_);
   if (cut_) return std::nullopt;  // it did not get all of the proof
   switch (end.kind) {

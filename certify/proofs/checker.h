@@ -38,8 +38,7 @@ class CheckerProcess {
   CheckerProcess& operator=(const CheckerProcess&) = delete;
 
   /// Writes the next bytes of the proof. After a stop nothing more is written; finish() then returns nothing. Throws
-  /// ProofRefused when the checker stops reading with a verdict, HelperError when the machine failed it,
-  /// std::runtime_error otherwise.
+  /// ProofRefused when the checker stops reading with a verdict, otherwise what finish() throws.
   void write(std::string_view bytes);
   /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(): its
   /// verdict is then not about the whole proof. Throws HelperError when the machine failed it (memory, a signal);
@@ -50,7 +49,7 @@ class CheckerProcess {
   static std::vector<std::string> command(const CheckRequest& request);
   bool stopped() const;
   void tell_progress() const;
-  [[noreturn]] void fail_as_refused();
+  void end_early();
 
   Checker checker_;
   const std::atomic<bool>*stop_, *stop_of_thread_;  ///< the second: of the thread that started it
@@ -58,7 +57,8 @@ class CheckerProcess {
   std::optional<std::filesystem::path> proof_;
   std::function<void(double)> progress_;
   ProgramLimits limits_;
-  bool cut_ = false;  ///< something was not written, after a stop
+  bool cut_ = false;    ///< something was not written, after a stop
+  bool ended_ = false;  ///< finish() was called
   Child child_;
 };
 

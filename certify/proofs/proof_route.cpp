@@ -119,7 +119,10 @@ std::vector<fs::path> ProofRoute::trajectory() const {
 
 void ProofRoute::check(VerifyOutcome& outcome) {
   check_proof_of(outcome);
-  if (unfinished_ && fs::exists(unfinished_->path())) unfinished_->finish();
+  if (!unfinished_) return;
+  const bool cut = outcome.verdict == Verdict::undecided && (outcome.interrupted || outcome.out_of_time);
+  if (!cut && fs::exists(unfinished_->path())) return unfinished_->finish();
+  outcome.proof_begun = false;
 }
 
 void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
@@ -161,8 +164,15 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
 /// Of steps that others decided, what they wrote is wrong.
 void ProofRoute::refuse(const std::string& problem) const {
   if (request_.decided == nullptr) throw std::runtime_error(problem);
+  std::string told = problem;
+  if (unfinished_) {  // its name is gone before anybody could look for it
+    const std::string name = unfinished_->path().string();
+    if (const std::size_t at = told.find(name); at != std::string::npos) {
+      told.replace(at, name.size(), request_.proof->string());
+    }
+  }
   throw InputError(request_.decided->scratch().string(), "",
-                   "the shards do not fit together: " + problem + "; make them again in a new folder");
+                   "the shards do not fit together: " + told + "; make them again in a new folder");
 }
 
 /// The checker has looked at the claim that was asked, and at no other.

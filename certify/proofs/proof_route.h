@@ -13,7 +13,7 @@
 // With a least distance the proof always goes through a file: the proof of a step that turns out to be too near has to
 // be taken back. So does that of a run that is being written: how many windows it has is known at the end. And that of
 // steps which shards decided, so that several checkers share it out. A file with a proof of those has its name once the
-// proof is complete: a job that was killed before can be run again by the same command.
+// proof is complete: a job that was stopped or killed before can be run again by the same command.
 #pragma once
 
 #include <filesystem>

@@ -276,6 +276,15 @@ TEST_F(VerifyInProcess, ACheckerThatTheMachineFailedWhileItReadIsAHelpersError) 
   }
 }
 
+TEST_F(VerifyInProcess, ACheckerThatReadsNoMoreAndStaysIsEndedByAStop) {
+  const auto program = folder.write("noli_check", "#!/bin/sh\nexec 0<&-\nexec sleep 60\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+  CheckerProcess checker(CheckRequest{.deadline = deadline, .programs = program.parent_path()});
+  checker.write(std::string(1 << 20, ' '));
+  EXPECT_FALSE(checker.finish().has_value());
+}
+
 TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {
   const VerifyRequest goes_on = falling(1.5);
   VerifyRequest stopped = goes_on;

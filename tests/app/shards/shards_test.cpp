@@ -101,21 +101,42 @@ TEST_F(Shards, ProofsOfShardsAreAcceptedByBothCheckers) {
   }
 }
 
-/// A merge that is killed, by the time limit of a queue say, leaves no proof in the way of the next one.
+/// A merge that is killed leaves no proof in the way of the next one.
 TEST_F(Shards, AMergeThatWasKilledIsRunAgain) {
   const Words asked = write_motion(40);
   const std::string proof = folder.path("all.noli");
   ASSERT_EQ(whole(asked).exit_code, 0);
   ASSERT_EQ(part(asked, "1/1").exit_code, 0);
   const auto is_whole = [&] { return bytes_of(proof) == bytes_of(folder.path("one.noli")); };
-  int kills = 0;
-  for (std::chrono::milliseconds pause{2}; !run_and_kill({"merge", shards(), "--proof", proof}, pause); pause *= 2) {
-    ++kills;
-    EXPECT_TRUE(!fs::exists(proof) || is_whole()) << "after " << pause.count() << " ms";
-    fs::remove(proof);  // it was killed after its end
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(merge().exit_code, 0);
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  for (int i = 0; i < 20; ++i) {
+    fs::remove(proof);
+    run_and_kill({"merge", shards(), "--proof", proof}, whole * i / 20);
+    EXPECT_TRUE(!fs::exists(proof) || is_whole()) << "killed at " << i << " of 20";
   }
-  EXPECT_GT(kills, 0);
-  EXPECT_TRUE(is_whole());
+  const auto is_part = [](const auto& entry) { return entry.path().extension() == ".part"; };
+  EXPECT_TRUE(std::ranges::any_of(fs::directory_iterator(folder.path("")), is_part)) << "none was killed in between";
+}
+
+/// So does one that is stopped, while it writes or while the checker reads.
+TEST_F(Shards, AMergeThatWasStoppedIsRunAgain) {
+  const Words asked = write_motion(40);
+  const std::string proof = folder.path("all.noli");
+  ASSERT_EQ(part(asked, "1/1").exit_code, 0);
+  int stopped = 0;
+  for (int limit = 1;; limit += limit / 4 + 1) {  // ms
+    const Process process =
+        run_noli({"merge", shards(), "--proof", proof, "--time-limit", std::to_string(limit) + "ms"});
+    EXPECT_EQ(fs::exists(proof), process.exit_code == 0) << limit << process.out;
+    if (process.exit_code != 2) {
+      EXPECT_EQ(process.exit_code, 0) << process.err;
+      break;
+    }
+    ++stopped;
+  }
+  EXPECT_GT(stopped, 0);
 }
 
 TEST_F(Shards, WithoutProofsGiveNoContact) {
