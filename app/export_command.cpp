@@ -112,7 +112,8 @@ ExitCode show_repair(const ExportArguments& arguments) {
 ExitCode show_contact(const ExportArguments& arguments) {
   const ExportRequest& request = arguments.frames;
   if (arguments.at || arguments.figure || !arguments.zoom.empty()) {
-    throw UsageError("--at, --figure, --zoom: are for runs; expected none of them with a result");
+    const char* const option = arguments.at ? "--at" : arguments.figure ? "--figure" : "--zoom";
+    throw UsageError(std::string(option) + ": is for a run; with a result the picture shows a contact");
   }
   if (arguments.fps_given || !arguments.time_limit.empty()) {
     throw UsageError("--fps, --time-limit: are for runs; expected neither with a result");
@@ -209,7 +210,7 @@ Command add_export(CLI::App& app) {
   command->add_option("--from", arguments->from, "Direction in which the eye is, of pictures: x y z, or x,y,z")
       ->delimiter(',');
   command->add_option("--size", arguments->size, "Pixels of a picture; else 640 wide")->type_name("WxH");
-  command->add_option("--zoom", arguments->zoom, "A body that fills the picture; else all that moves is seen")
+  command->add_option("--zoom", arguments->zoom, "Of a run: a body that fills the picture; else all that moves is seen")
       ->type_name("BODY");
   command
       ->add_option("--contact", arguments->contact,

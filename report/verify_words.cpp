@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "certify/process/run_program.h"
 #include "certify/process/this_program.h"
 #include "certify/proofs/claim.h"
+#include "certify/proofs/prove_run.h"
 #include "report/input_report.h"
 #include "report/verify_place.h"
 #include "report/verify_report.h"
@@ -260,9 +263,18 @@ class Words {
       case Verdict::undecided: return after_stop();
       case Verdict::too_near: return after_too_near();
       case Verdict::no_contact: return request_.check ? "" : "without --no-check a separate checker checks the proof.";
-      case Verdict::proved: return request_.proof ? "" : "--proof OUT.noli keeps the proof, which anybody can check.";
+      case Verdict::proved: return after_proof();
     }
     return "";
+  }
+
+  std::string after_proof() const {
+    if (request_.proof) return "";
+    std::error_code error;
+    if (request_.run && std::filesystem::exists(proof_path(request_.frames[0]), error)) {
+      return shell_words({"noli", "check", request_.frames[0].string()}) + " checks the proof that is in the run.";
+    }
+    return "--proof OUT.noli keeps the proof, which anybody can check.";
   }
 
   std::string after_contact() const {

@@ -104,7 +104,7 @@ Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMo
 
 std::string finding_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionFinding& finding) {
   std::string text =
-      fmt::format("{}\n  {}, block {}, motion {}; {} such; {} frames, {} cells, {} vertices; ",
+      fmt::format("{}\n  {}, block {}, motion {}; {} of this kind; {} frames, {} cells, {} vertices; ",
                   on_one_line(finding.found.words), finding.generator, finding.block, finding.index, finding.alike,
                   finding.shrunk.frames.size(), finding.shrunk.mesh.cell_count(), finding.shrunk.mesh.vertex_count);
   if (finding.folder.empty()) return text + "not saved\n";

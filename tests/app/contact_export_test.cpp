@@ -136,7 +136,8 @@ TEST_F(ContactExport, MarksWhatMergedVerticesBelongTo) {
 TEST_F(ContactExport, RefusesWhatIsForRuns) {
   result();
   expect_refused(export_to("hits.ply"), "ends in .vtu or .png");
-  expect_refused(export_to("hits.png", {"--at", "1"}), "are for runs");
+  expect_refused(export_to("hits.png", {"--at", "1"}), "--at: is for a run");
+  expect_refused(export_to("hits.png", {"--zoom", "ball"}), "--zoom: is for a run");
   expect_refused(export_to("hits.png", {"--fps", "24"}), "are for runs");
   expect_refused(export_to("hits.vtu", {"--size", "200x150"}), "are for pictures");
 }

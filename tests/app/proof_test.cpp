@@ -419,6 +419,8 @@ TEST_F(ProofOfRun, EachWindowIsProvedAsItIsWritten) {
   const Process checked = run_noli({"check", run_path("run")});
   EXPECT_EQ(checked.exit_code, 0) << checked.out;
   EXPECT_NE(checked.out.find("25 steps"), std::string::npos) << checked.out;
+  const Process verified = run_noli({"verify", run_path("run")});
+  EXPECT_NE(verified.out.find("\nNext: noli check "), std::string::npos) << verified.out;
   ASSERT_EQ(run_noli({"verify", run_path("run"), "--proof", folder.path("again.noli")}).exit_code, 0);
   EXPECT_EQ(bytes_of(folder.path("again.noli")) == bytes_of(run_path("run") + "/proof.blocks"), true);
 }

@@ -195,7 +195,7 @@ std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFu
   std::string text;
   for (const auto& finding : report.findings) {
     const std::size_t distinct = distinct_coordinates(finding.shrunk);
-    text += fmt::format("{}\n  {}\n  {}, block {}, query {}; {} such; shrunk to {} different number{}; {}\n",
+    text += fmt::format("{}\n  {}\n  {}, block {}, query {}; {} of this kind; shrunk to {} different number{}; {}\n",
                         finding.found.words, c_array(finding.shrunk), finding.generator, finding.block, finding.index,
                         finding.alike, distinct, distinct == 1 ? "" : "s", whereabouts(options, finding.file));
   }
