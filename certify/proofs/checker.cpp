@@ -113,9 +113,8 @@ void CheckerProcess::end_early() {
 }
 
 std::optional<CheckerVerdict> CheckerProcess::finish() {
-  if (std::exchange(ended_, true)) return std::nullopt;  // a stop came while it was written to
+  if (cut_) return std::nullopt;  // it did not get all of the proof; the destructor ends it
   ProgramEnd end = child_.finish(limits_);
-  if (cut_) return std::nullopt;  // it did not get all of the proof
   switch (end.kind) {
     case ProgramEnd::Kind::exited: break;
     case ProgramEnd::Kind::stopped: return std::nullopt;

@@ -57,8 +57,7 @@ class CheckerProcess {
   std::optional<std::filesystem::path> proof_;
   std::function<void(double)> progress_;
   ProgramLimits limits_;
-  bool cut_ = false;    ///< something was not written, after a stop
-  bool ended_ = false;  ///< finish() was called
+  bool cut_ = false;  ///< something was not written, after a stop
   Child child_;
 };
 
