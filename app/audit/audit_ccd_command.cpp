@@ -26,13 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* audit_ccd_footer =
-    "Asks libraries of continuous collision detection each query of the files, and compares the answers with "
-    "the exact truth: false positives, false negatives, late and early times of impact, failures, crashes, "
-    "hangs, memory that grows, and time per query, also as a multiple of the textbook method's.\n"
+    "Asks libraries of continuous collision detection every query in the files and compares the answers with the exact "
+    "truth: false positives, false negatives, late and early times of impact, failures, crashes, hangs, growing "
+    "memory, and time per query, also as a multiple of the textbook method's.\n"
     "\n"
-    "A library has two C functions, declared in noli/ccd_plugin.h, and runs in a process of its own. With "
-    "--frames the whole pipeline is audited: a third function searches for candidates, and all contacts "
-    "between the two frames are the truth.\n"
+    "A library has two C functions, declared in noli/ccd_plugin.h, and runs in a separate process. With --frames the "
+    "whole pipeline is audited: a third function searches for candidates, and all contacts between the two frames are "
+    "the truth.\n"
     "\n"
     "Exit codes: 0 no finding (false positives and early times are allowed); 1 findings; 2 interrupted or "
     "out of time; 3 a library or a file is at fault.\n"
@@ -62,7 +62,7 @@ std::vector<fs::path> inputs(const AuditArguments& arguments) {
 
 ExitCode run_pipeline(const AuditArguments& arguments) {
   const audit::AuditRequest& request = arguments.request;
-  if (arguments.svg) throw UsageError("--svg: there is no picture of --frames");
+  if (arguments.svg) throw UsageError("--svg: cannot be combined with --frames");
   const Output output(arguments.results, inputs(arguments));
   const OrderedFrames ordered = order_frames(arguments.frames, arguments.order);
   audit::PipelineOutcome outcome =
@@ -85,7 +85,7 @@ ExitCode run(AuditArguments& arguments) {
   }
   if (!arguments.frames.empty()) return run_pipeline(arguments);
   if (arguments.order != FrameOrder::checked || arguments.polygons != PolygonRule::fan) {
-    throw UsageError("--order, --polygons: are for --frames; expected none of them with queries");
+    throw UsageError("--order, --polygons: apply to --frames only; drop them for queries");
   }
   const Output output(arguments.results, inputs(arguments), outputs("--svg", arguments.svg));
   const audit::AuditOutcome outcome = with_progress("audit ccd", [&](const auto& show) {
@@ -111,39 +111,36 @@ Command add_audit_ccd(CLI::App& audit) {
       ->type_name("LIB.so");
   command->add_option("files", request.files, "Files of queries (CSV, as for `noli ccd`), vertex-face or edge-edge")
       ->type_name("QUERIES.csv");
-  command
-      ->add_option("--frames", arguments->frames, "In place of queries: two frames, and a whole pipeline between them")
+  command->add_option("--frames", arguments->frames, "Instead of queries: audit a whole pipeline between two frames")
       ->expected(2)
       ->type_name("BEFORE AFTER");
   add_order_option(*command, arguments->order);
   add_polygons_option(*command, arguments->polygons);
   command
       ->add_option("--tolerance", request.tolerances,
-                   "What the libraries are told, a length; several with commas between them [1e-6]")
+                   "The tolerance for the libraries, a length; separate several by commas [1e-6]")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(is_not_negative())
       ->type_name("T");
-  command->add_option("--query-limit", arguments->query_limit, "A query that computes for longer hangs: 500ms, 10s")
+  command->add_option("--query-limit", arguments->query_limit, "A query that takes longer counts as hung: 500ms, 10s")
       ->capture_default_str()
       ->type_name("TIME");
   command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 60s, 5m, 1h")->type_name("TIME");
   command
       ->add_option("--memory-limit", arguments->megabytes,
-                   "End the process in which a library runs when it has more than so many megabytes")
+                   "End a library's process when it uses more than this many megabytes")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("MB");
   command
-      ->add_option("--max-hangs", request.host.most_hangs,
-                   "After so many hangs on a file a library is asked no more of it")
+      ->add_option("--max-hangs", request.host.most_hangs, "After this many hangs, a library skips the rest of a file")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
   command
-      ->add_option(
-          "--max-reports", request.max_reports,
-          "List at most so many findings for each library, tolerance and file (or step); counts are always exact")
+      ->add_option("--max-reports", request.max_reports,
+                   "List at most N findings for each library, tolerance and file (or step); counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");

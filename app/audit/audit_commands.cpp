@@ -26,7 +26,7 @@ std::vector<Command> add_audits(CLI::App& app) {
       "  noli audit precision scenes/bounce.json --short\n"
       "  noli audit integrator --svg integrator.svg     error against run time\n"
       "  noli audit stability                           extreme scenes, and how they end\n"
-      "  noli audit self                                all that noli can check about itself\n");
+      "  noli audit self                                everything noli can check about itself\n");
   return {add_fuzz_queries(fuzz),      add_fuzz_trajectories(fuzz), add_fuzz_proofs(fuzz),
           add_fuzz_scenes(fuzz),       add_audit_ccd(audit),        add_audit_precision(audit),
           add_audit_integrator(audit), add_audit_self(audit),       add_audit_stability(audit)};

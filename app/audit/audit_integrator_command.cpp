@@ -79,23 +79,24 @@ ExitCode run(IntegratorArguments& arguments) {
 }  // namespace
 
 Command add_audit_integrator(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("integrator", "Error against run time, beside the usual methods");
+  CLI::App* const command =
+      audit.add_subcommand("integrator", "Error against run time, compared with the usual methods");
   command->footer(integrator_footer);
   const auto arguments = std::make_shared<IntegratorArguments>();
   audit::IntegratorOptions& options = arguments->options;
-  command->add_option("scenes", arguments->scenes, "Scenes to run; without any, a uniform sheet and a graded one")
+  command->add_option("scenes", arguments->scenes, "Scenes to run; default: a uniform sheet and a graded one")
       ->type_name("SCENE.json");
   command->add_flag("--short", arguments->brief, "The scenes' short forms");
-  command->add_option("--halvings", options.halvings, "How often steps are halved")
+  command->add_option("--halvings", options.halvings, "How many times steps are halved")
       ->check(whole_number(0, 20))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--windows", options.windows, "How many windows of each scene, at most those it has")
+  command->add_option("--windows", options.windows, "How many windows of each scene to run, at most all of them")
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
   command->add_flag_callback(
-      "--no-euler", [&options] { options.euler = false; }, "Without the implicit Euler method");
+      "--no-euler", [&options] { options.euler = false; }, "Skip the implicit Euler method");
   command->add_option("--svg", arguments->svg, "Draw errors against run time")->type_name("OUT.svg");
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* precision_footer =
-    "Runs a scene in double and, event by event in the same order, in MPFR numbers of other precisions. It "
-    "reports how far positions, energies and momenta come apart, when the order of events would differ, and "
-    "which part of the energy error is rounding and which is truncation. 53 bits with the exponents of "
-    "double always run too, and must yield the bits of double.\n"
+    "Runs a scene in double and, event by event in the same order, in MPFR numbers of other precisions. It reports how "
+    "far positions, energies and momenta drift apart, when the order of events would differ, and how much of the "
+    "energy error is rounding and how much is truncation. A run with 53 bits and the exponents of double is always "
+    "included; it must yield the bits of double.\n"
     "\n"
     "Exit codes: 0 they do (same); 1 they do not (differs); 2 not all windows were run (undecided).\n"
     "Examples:\n"
@@ -114,15 +114,14 @@ Command add_audit_precision(CLI::App& audit) {
       ->needs(until);
   command
       ->add_option("--bits", arguments->bits,
-                   "Precisions to run, with commas between them [53,64,113,256]; energies are measured against the "
-                   "greatest")
+                   "Precisions to run, separated by commas [53,64,113,256]; energies are compared with the highest")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(whole_number(least_bits, audit::MpfrNumber::most_bits))
       ->type_name("P,...");
   command->add_option("--svg", arguments->svg, "Draw drifts and energy errors over time")->type_name("OUT.svg");
   add_time_limit_option(*command, arguments->time_limit,
-                        "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped");
+                        "Stop after this time: 500ms, 60s, 5m, 1h; an unfinished window is dropped");
   add_output_options(*command, arguments->results);
   add_threads_option(*command, arguments->request.threads);
   return {command, [arguments] { return run(*arguments); }};

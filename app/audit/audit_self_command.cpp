@@ -30,9 +30,9 @@ using audit::SelfPart;
 using audit::SelfReport;
 
 constexpr const char* self_footer =
-    "Runs what noli can check about itself: the self-test of its rounding, the labelled queries of "
-    "$NOLI_DATA, each fuzzer for a while, and proofs through each checker that is installed. What cannot run "
-    "is named as skipped, and does not count as held.\n"
+    "Runs everything noli can check about itself: the self-test of its rounding, the labelled queries in $NOLI_DATA, "
+    "each fuzzer for a while, and proofs with each installed checker. What cannot run is reported as skipped and does "
+    "not count as held.\n"
     "\n"
     "Exit codes: 0 all that ran held; 1 something failed; 2 interrupted or, with --require-all, something "
     "was skipped.\n"
@@ -144,7 +144,7 @@ ExitCode run(SelfArguments& arguments) {
 }  // namespace
 
 Command add_audit_self(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("self", "All that noli can check about itself, on one page");
+  CLI::App* const command = audit.add_subcommand("self", "Everything noli can check about itself, on one page");
   command->footer(self_footer);
   const auto arguments = std::make_shared<SelfArguments>();
   audit::SelfOptions& options = arguments->options;
@@ -154,12 +154,11 @@ Command add_audit_self(CLI::App& audit) {
   command->add_option("--scene-time", arguments->scene_time, "Time of each scene of --scenes")
       ->capture_default_str()
       ->type_name("TIME");
-  command->add_option("--seed", options.seed, "What fuzzers depend on")
+  command->add_option("--seed", options.seed, "Seed of the fuzzers")
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
-  command
-      ->add_option("--only", options.only, "Only these parts: rounding, labels, fuzz, proofs; with commas between them")
+  command->add_option("--only", options.only, "Only these parts: rounding, labels, fuzz, proofs; separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(audit::self_groups), std::end(audit::self_groups))))
@@ -171,10 +170,10 @@ Command add_audit_self(CLI::App& audit) {
       ->check(CLI::ExistingDirectory)
       ->capture_default_str()
       ->type_name("DIR");
-  command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")
+  command->add_option("--program", arguments->program, "Run this `noli` instead of the current one")
       ->check(CLI::ExistingFile)
       ->type_name("NOLI");
-  command->add_option("--out", arguments->out, "Folder for what fuzzers find, made when they do")
+  command->add_option("--out", arguments->out, "Folder for findings, created for the first one")
       ->capture_default_str()
       ->type_name("DIR");
   command->add_flag("--require-all", arguments->require_all, "Exit 2 when something was skipped");

@@ -34,13 +34,12 @@ using audit::StabilityResult;
 using audit::StabilityRow;
 
 constexpr const char* stability_footer =
-    "Each row takes small scenes or pairs of frames from the ordinary to the extreme in one quantity: "
-    "stiffness, mass, thickness, speed, offset, magnitude, slivers, subnormals, steps, resonance; with and "
-    "without contact. Each point runs the `noli` program as a user would, and looks at the result. Does the "
-    "run end? Is it verified again? Are energy and momentum kept? Does it resume with the same bytes? "
-    "Whatever fails must not exit with 0.\n"
+    "Each row takes small scenes or pairs of frames from the ordinary to the extreme in one quantity: stiffness, mass, "
+    "thickness, speed, offset, magnitude, slivers, subnormals, steps, resonance; with and without contact. Each point "
+    "runs the `noli` program as a user would and checks the result. Does the run end? Is it verified again? Are energy "
+    "and momentum kept? Does it resume with the same bytes? A run that fails must not exit with 0.\n"
     "\n"
-    "Exit codes: 0 whatever failed failed closed; 1 a finding, whose input is kept in --out; 2 interrupted.\n"
+    "Exit codes: 0 all failures failed closed; 1 a finding, whose input is kept in --out; 2 interrupted.\n"
     "Examples:\n"
     "  noli audit stability\n"
     "  noli audit stability --row offset --row offset-contact --json result.json\n"
@@ -162,7 +161,7 @@ std::vector<StabilityRow> chosen_rows(const std::vector<std::string>& names) {
       std::vector<std::string> known(all.size());
       std::ranges::transform(all, known.begin(), &StabilityRow::name);
       throw UsageError(
-          fmt::format("--row: there is no row {}; there are {}", on_one_line(name), fmt::join(known, ", ")));
+          fmt::format("--row: there is no row {}; choose one of {}", on_one_line(name), fmt::join(known, ", ")));
     }
     chosen.push_back(*row);
   }
@@ -198,25 +197,26 @@ ExitCode run(StabilityArguments& arguments) {
 }  // namespace
 
 Command add_audit_stability(CLI::App& audit) {
-  CLI::App* const command = audit.add_subcommand("stability", "How far does noli go, and how does it end beyond that?");
+  CLI::App* const command =
+      audit.add_subcommand("stability", "How far does noli go, and how does it fail beyond that?");
   command->footer(stability_footer);
   const auto arguments = std::make_shared<StabilityArguments>();
-  command->add_option("--row", arguments->rows, "This row alone; may be given more than once")
+  command->add_option("--row", arguments->rows, "Only this row; may be given more than once")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--points", arguments->points, "Only the first so many points of each row")
+  command->add_option("--points", arguments->points, "Only the first N points of each row")
       ->check(whole_number(1, 100))
       ->type_name("N");
   command->add_option("--point-limit", arguments->point_limit, "A run that takes longer ends undecided: 500ms, 20s, 1m")
       ->capture_default_str()
       ->type_name("TIME");
-  command->add_option("--program", arguments->program, "Ask this `noli` instead of this one")
+  command->add_option("--program", arguments->program, "Run this `noli` instead of the current one")
       ->check(CLI::ExistingFile)
       ->type_name("NOLI");
-  command->add_option("--out", arguments->out, "Folder for the input of findings, made for the first one")
+  command->add_option("--out", arguments->out, "Folder for the input of findings, created for the first one")
       ->capture_default_str()
       ->type_name("DIR");
-  command->add_option("--svg", arguments->svg, "Draw what holds up to which value")->type_name("OUT.svg");
+  command->add_option("--svg", arguments->svg, "Draw up to which value each row holds")->type_name("OUT.svg");
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -17,24 +17,26 @@ CLI::Option* add_sandbox_option(CLI::App& command, bool& sandbox) {
 void add_library_options(CLI::App& command, LibraryArguments& arguments, const std::string& instead) {
   audit::LibraryUnderTest& library = arguments.asked;
   CLI::Option* const path =
-      command.add_option("--library", library.path, "Ask this library of collision detection, in place of " + instead)
+      command.add_option("--library", library.path, "Ask this library of collision detection instead of " + instead)
           ->type_name("LIB.so");
-  command.add_option("--tolerance", library.tolerance, "The tolerance that the library is given, a length")
+  command.add_option("--tolerance", library.tolerance, "The tolerance for the library, a length")
       ->check(is_not_negative())
       ->capture_default_str()
       ->type_name("T")
       ->needs(path);
-  command.add_flag("--exact", library.exact, "It claims to be exact: false positives and early times are findings too")
+  command
+      .add_flag("--exact", library.exact,
+                "The library claims to be exact: false positives and early times are findings too")
       ->needs(path);
   command.add_flag("--first-only", arguments.first_only, "Stop soon after the first finding")->needs(path);
   add_sandbox_option(command, library.host.sandbox)->needs(path);
-  command.add_option("--query-limit", arguments.query_limit, "A query that computes for longer hangs: 500ms, 10s")
+  command.add_option("--query-limit", arguments.query_limit, "A query that takes longer counts as hung: 500ms, 10s")
       ->capture_default_str()
       ->type_name("TIME")
       ->needs(path);
   command
       .add_option("--memory-limit", arguments.megabytes,
-                  "End the process in which the library runs when it has more than so many megabytes")
+                  "End the library's process when it uses more than this many megabytes")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("MB")

@@ -123,7 +123,7 @@ std::string report_text(const LibraryMotionArguments& arguments, const audit::Li
     text += '\n';
   }
   if (arguments.common.corpus) text += fmt::format("Corpus: {} motions.\n", report.corpus_size);
-  if (report.not_asked > 0) text += fmt::format("Not asked, after too many hangs: {}.\n", report.not_asked);
+  if (report.not_asked > 0) text += fmt::format("Skipped after too many hangs: {}.\n", report.not_asked);
   return text +
          fmt::format("Candidates: {}. False positives among them: {}.\n", report.candidates, report.false_positives);
 }

@@ -16,21 +16,21 @@ namespace noli::app {
 void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const std::string& what) {
   command
       .add_option("--for", arguments.duration,
-                  "Stop after this time, and make findings small: 500ms, 60s, 5m, 1h (60s, without --count)")
+                  "Stop after this time, then shrink findings: 500ms, 60s, 5m, 1h (60s, without --count)")
       ->type_name("TIME");
-  command.add_option("--count", arguments.limits.count, "Stop after so many " + what)
+  command.add_option("--count", arguments.limits.count, "Stop after this many " + what)
       ->check(whole_number(1, std::uint64_t{1} << 60))
       ->type_name("N");
-  command.add_option("--seed", arguments.limits.seed, "What the " + what + " depend on")
+  command.add_option("--seed", arguments.limits.seed, "Seed of the " + what)
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
   add_threads_option(command, arguments.limits.threads);
   command
       .add_option("--corpus", arguments.corpus,
-                  "Folder of " + what + " that reached something new: judged first, added to")
+                  "Folder of " + what + " that reached something new: judged first, then extended")
       ->type_name("DIR");
-  command.add_option("--out", arguments.out, "Folder for findings, made for the first one")
+  command.add_option("--out", arguments.out, "Folder for findings, created for the first one")
       ->capture_default_str()
       ->type_name("DIR");
   add_output_options(command, arguments.results);
@@ -41,7 +41,7 @@ void add_again_options(CLI::App& command, AgainArguments& arguments, const std::
   CLI::Option* const replay =
       command.add_option("--replay", arguments.replay, "Judge this saved " + what + " again instead")->type_name(type);
   CLI::Option* const minimise =
-      command.add_option("--minimise", arguments.minimise, "Make this saved " + what + " smaller, into --out, instead")
+      command.add_option("--minimise", arguments.minimise, "Shrink this saved " + what + " into --out instead")
           ->type_name(type);
   replay->excludes(minimise);
   excluded.insert(excluded.end(), {"--count", "--for", "--seed", "--corpus"});

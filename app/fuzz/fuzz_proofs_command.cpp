@@ -28,12 +28,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* proofs_footer =
-    "Damages good proofs in many ways, with and without repairing checksums and hashes. Both checkers must "
-    "give the same answer, and none may accept a proof whose claim is false; an oracle that never looks at "
-    "the proof decides that. Without a proof of your own, proofs of small motions are made first.\n"
+    "Damages good proofs in many ways, with and without repairing checksums and hashes. Both checkers must give the "
+    "same answer, and neither may accept a proof whose claim is false; an oracle that never looks at the proof decides "
+    "that. Without PROOF, it first makes proofs of small motions.\n"
     "\n"
-    "With --count the result depends on the seed and the proofs alone. Exit codes: 0 no finding; 1 findings; "
-    "2 interrupted.\n"
+    "With --count the result depends only on the seed and the proofs. Exit codes: 0 no finding; 1 findings; 2 "
+    "interrupted.\n"
     "Examples:\n"
     "  noli fuzz proofs --for 60s --seed 1\n"
     "  noli fuzz proofs proof.noli before.ply after.ply --count 100000\n"
@@ -172,7 +172,7 @@ std::vector<audit::ProofCase> cases(const ProofsArguments& arguments) {
 audit::MakeCheckers checkers_beside() {
   const fs::path verified = beside_this_program("noli_check_verified");
   const bool has_verified = fs::exists(verified);
-  if (!has_verified) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+  if (!has_verified) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
   return [verified, has_verified] {
     ProgramLimits limits;
     limits.stop = stop_by(&interrupted());
@@ -242,9 +242,8 @@ Command add_fuzz_proofs(CLI::App& fuzz) {
       ->type_name("PROOF TRAJECTORY");
   add_fuzz_options(*command, arguments->common, "mutants");
   command
-      ->add_option(
-          "--verified-every", arguments->verified_every,
-          "Ask the verified checker about one mutant of so many, and about all that are accepted of a changed claim")
+      ->add_option("--verified-every", arguments->verified_every,
+                   "Ask the verified checker about one in N mutants, and about all accepted ones with a changed claim")
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");

@@ -34,14 +34,14 @@ constexpr const char* queries_footer =
     "decide each: contact, distance within a bound and when first, and the failure time of a certificate for "
     "two of its points.\n"
     "\n"
-    "With --library somebody else's library is asked instead, and the kernel is the truth. The library has "
-    "the functions of noli/ccd_plugin.h and runs in a process of its own. Findings are missed contacts, late "
-    "or absent times, failures, crashes and hangs; of an --exact library also false positives and early "
-    "times. Each finding is shrunk and saved as a file that `noli ccd` and `noli audit ccd` read, labelled "
-    "with the truth and with the command that asks it again.\n"
+    "With --library, a third-party library is asked instead, and the kernel is the truth. The library has the "
+    "functions of noli/ccd_plugin.h and runs in a separate process. Findings are missed contacts, late or absent "
+    "times, failures, crashes and hangs; of an --exact library also false positives and early times. Each finding is "
+    "shrunk and saved as a file that `noli ccd` and `noli audit ccd` read, labelled with the truth and with the "
+    "command that asks it again.\n"
     "\n"
-    "With --count the result depends on the seed alone, and on the corpus if there is one. Exit codes: 0 no "
-    "finding; 1 findings; 2 interrupted; 3 a library or file is at fault.\n"
+    "With --count the result depends only on the seed and, if there is one, the corpus. Exit codes: 0 no finding; 1 "
+    "findings; 2 interrupted; 3 a library or file is at fault.\n"
     "Examples:\n"
     "  noli fuzz queries --library ./mine.so --for 60s --tolerance 1e-6\n"
     "  noli fuzz queries --library ./mine.so --minimise queries-edge-edge.csv\n"
@@ -148,9 +148,9 @@ class OneFile {
 /// What a replay says where the library hung so often that it was not asked any more.
 std::string not_asked_text(const OneFile& file) {
   const std::size_t left = file.queries().size() - file.asked();
-  return left == 0 ? ""
-                   : fmt::format("Not asked, after too many hangs or an interruption: {} of {}.\n", left,
-                                 file.queries().size());
+  return left == 0
+             ? ""
+             : fmt::format("Skipped after too many hangs or an interruption: {} of {}.\n", left, file.queries().size());
 }
 
 /// What a replay found, in all files.
@@ -278,14 +278,14 @@ Command add_fuzz_queries(CLI::App& fuzz) {
   command->footer(queries_footer);
   const auto arguments = std::make_shared<FuzzArguments>();
   add_fuzz_options(*command, *arguments, "queries");
-  command->add_option("--max-findings", arguments->max_findings, "Shrink and save at most so many")
+  command->add_option("--max-findings", arguments->max_findings, "Shrink and save at most N")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
   add_library_options(*command, *arguments, "the kernel");
   command
       ->add_option("--late-tolerance", arguments->asked.late_tolerance,
-                   "Times that are late by at most this part of the step are no findings")
+                   "Times that are late by at most this part of the step are not findings")
       ->check(is_not_negative())
       ->capture_default_str()
       ->type_name("T")
@@ -302,11 +302,11 @@ Command add_fuzz_queries(CLI::App& fuzz) {
       ->excludes(command->get_option("--sandbox"))
       ->excludes(command->get_option("--query-limit"))
       ->excludes(command->get_option("--memory-limit"));
-  CLI::Option* const smaller = command
-                                   ->add_option("--minimise", arguments->minimise,
-                                                "Instead, make what fails in this file simpler, and save it beside "
-                                                "the file or in --out")
-                                   ->type_name("FILE");
+  CLI::Option* const smaller =
+      command
+          ->add_option("--minimise", arguments->minimise,
+                       "Instead, shrink the failing queries of this file, and save them beside it or in --out")
+          ->type_name("FILE");
   again->excludes(smaller)->excludes(out);
   for (const char* const name :
        {"--for", "--count", "--seed", "--corpus", "--max-findings", "--threads", "--first-only"}) {

@@ -28,7 +28,7 @@ constexpr const char* scenes_footer =
     "Some scenes are wrong in one place, which the message must name. A finding is shrunk and saved as a "
     "scene, with the command that shows it again.\n"
     "\n"
-    "With --count the scenes depend on the seed alone. Exit codes: 0 no finding; 1 findings; 2 interrupted.\n"
+    "With --count the scenes depend only on the seed. Exit codes: 0 no finding; 1 findings; 2 interrupted.\n"
     "Examples:\n"
     "  noli fuzz scenes --for 60s --seed 1\n"
     "  noli fuzz scenes --count 10000 --json result.json\n"

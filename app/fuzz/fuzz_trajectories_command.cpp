@@ -27,14 +27,13 @@ constexpr const char* trajectories_footer =
     "unit in the last place. Each is written as PLY or OBJ, read back and verified; both checkers see its "
     "proof or witness. A wrong answer is shrunk and saved as frames, with the command that shows it again.\n"
     "\n"
-    "With --library the motions go through somebody else's pipeline instead, step by step: its search for "
-    "candidates (all pairs, if it has none), then its query for each of them. The library has the functions "
-    "of noli/ccd_plugin.h and runs in a process of its own. Findings are contacts that are missed or are no "
-    "candidates, late or absent times, failures, crashes, hangs and leaks; of an --exact library also false "
-    "positives and early times.\n"
+    "With --library the motions go through a third-party pipeline instead, step by step: its search for candidates "
+    "(all pairs, if it has none), then its query for each of them. The library has the functions of noli/ccd_plugin.h "
+    "and runs in a separate process. Findings are contacts that are missed or are not candidates, late or absent "
+    "times, failures, crashes, hangs and leaks; of an --exact library also false positives and early times.\n"
     "\n"
-    "With --count and without a corpus the result depends on the seed alone. Exit codes: 0 no finding; 1 "
-    "findings; 2 interrupted; 3 a library or folder is at fault.\n"
+    "With --count and without a corpus the result depends only on the seed. Exit codes: 0 no finding; 1 findings; 2 "
+    "interrupted; 3 a library or folder is at fault.\n"
     "Examples:\n"
     "  noli fuzz trajectories --for 60s --seed 1\n"
     "  noli fuzz trajectories --library ./mine.so --for 60s --tolerance 1e-6\n"
@@ -83,14 +82,14 @@ std::string report_text(const TrajectoriesArguments& arguments, const audit::Tra
                         generator.contact, generator.without_witness);
   }
   if (arguments.common.corpus) text += fmt::format("Corpus: {} motions.\n", report.corpus_size);
-  return text + fmt::format("The verified checker looked at {} proofs. Not decided in their time: {}. Shapes: {}.\n",
+  return text + fmt::format("The verified checker looked at {} proofs. Not decided in time: {}. Shapes: {}.\n",
                             report.checked_verified, undecided(report), report.shapes);
 }
 
 ExitCode fuzz(TrajectoriesArguments& arguments) {
   const Output output = begin_fuzzing(arguments.common, {});
   audit::VerifyProgram subject(arguments.verified_every, interrupted());
-  if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified is not there, and is left out\n", stderr);
+  if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
   audit::TrajectoryOptions options;
   set_common(options, arguments.common);
   options.families = arguments.families;
@@ -153,16 +152,16 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
   command->footer(trajectories_footer);
   const auto arguments = std::make_shared<TrajectoriesArguments>();
   add_fuzz_options(*command, arguments->common, "motions");
-  command->add_option("--max-findings", arguments->max_findings, "Make smaller and save at most so many")
+  command->add_option("--max-findings", arguments->max_findings, "Shrink and save at most N")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str()
       ->type_name("N");
-  CLI::Option* const verified_every = command
-                                          ->add_option("--verified-every", arguments->verified_every,
-                                                       "Ask the verified checker about one motion of so many")
-                                          ->check(whole_number(1, 1'000'000))
-                                          ->capture_default_str()
-                                          ->type_name("N");
+  CLI::Option* const verified_every =
+      command
+          ->add_option("--verified-every", arguments->verified_every, "Ask the verified checker about one in N motions")
+          ->check(whole_number(1, 1'000'000))
+          ->capture_default_str()
+          ->type_name("N");
   add_library_options(*command, arguments->theirs, "noli verify and the checkers");
   std::vector<std::string> names;
   for (const audit::MotionGenerator& generator : audit::motion_generators()) names.emplace_back(generator.name);

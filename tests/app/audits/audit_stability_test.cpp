@@ -160,7 +160,7 @@ TEST_F(AuditStability, ACtrlCEndsIt) {
 TEST_F(AuditStability, BadInputIsRefused) {
   const Process process = run_noli(command("no-such-row"));
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("there is no row no-such-row; there are stiffness-ratio, "), std::string::npos);
+  EXPECT_NE(process.err.find("there is no row no-such-row; choose one of stiffness-ratio, "), std::string::npos);
   EXPECT_EQ(run_noli(command("speed", {"--program", folder.path("none")})).exit_code, 3);
   EXPECT_EQ(run_noli(command("speed", {"--point-limit", "never"})).exit_code, 3);
 }
