@@ -41,12 +41,12 @@ BodyFrames obstacle(const std::string& word) {
 
 void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames) {
   CLI::Option* const body =
-      command.add_option("--body", words.bodies, "A body with files of its own, for each body: joined into one mesh")
+      command.add_option("--body", words.bodies, "A body and its files, once for each body; joined into one mesh")
           ->allow_extra_args(false)
           ->type_name("NAME=FRAMES")
           ->group(group::question);
   CLI::Option* const still =
-      command.add_option("--obstacle", words.obstacles, "A body that stands still, beside --body: one file")
+      command.add_option("--obstacle", words.obstacles, "A body that stands still, with --body: one file")
           ->allow_extra_args(false)
           ->needs(body)
           ->type_name("[NAME=]FRAME")

@@ -147,14 +147,14 @@ Command add_ccd(CLI::App& app) {
   command->add_option("files", request.files, "Files of queries (CSV)")->required()->type_name("QUERIES.csv");
   command
       ->add_option("--kind", arguments->kind,
-                   "vertex-face, edge-edge, vertex-edge or vertex-vertex; by default the file's name says")
+                   "vertex-face, edge-edge, vertex-edge or vertex-vertex; by default the file name says which")
       ->check(CLI::IsMember({"vertex-face", "edge-edge", "vertex-edge", "vertex-vertex"}))
       ->type_name("KIND");
   command->add_option("--dimension", request.dimension, "2 ignores z")->check(is_dimension())->type_name("2|3");
   command->add_flag("--times", request.times, "Print kind and time of every contact (17 digits, rounded down)");
   command
       ->add_option("--max-reports", request.max_reports,
-                   "List at most so many disagreements a file; counts are always exact")
+                   "List at most N disagreements per file; counts are always exact")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");

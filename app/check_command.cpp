@@ -35,19 +35,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* check_footer =
-    "Runs the checker: a small program of its own, which trusts nothing of noli.\n"
+    "Runs the checker: a small, separate program that trusts nothing from noli.\n"
     "\n"
-    "You choose what has to be proved, not the proof. Unless you ask for something else, that is: frames in "
-    "motion (or the run), all steps, every cell, no merged vertices, nothing left out except what the run's "
-    "scene leaves out, no least distance. A proof of less is rejected, and so is a witness against more. Ask "
-    "for one field at a time:\n"
+    "You choose what has to be proved, not the proof. By default, that is: frames in motion (or the run), all steps, "
+    "every cell, no merged vertices, nothing left out except what the run's scene leaves out, no least distance. A "
+    "proof of less is rejected, and so is a witness against more. Ask for one field at a time:\n"
     "  --require motion=rest       each frame by itself (noli verify --static)\n"
     "  --require dimension=2       z does not count (--dimension 2)\n"
     "  --require steps=5           the first five steps, or windows\n"
     "  --require strict            also the features of one cell (--strict)\n"
     "  --require points            also vertices without a cell (--points)\n"
-    "  --require distance=0.001    at least so far apart (--min-distance); ring=2 for its ring\n"
-    "  --require merged=12         so many vertices may be merged; together with cells=HASH\n"
+    "  --require distance=0.001    at least this far apart (--min-distance); ring=2 for its ring\n"
+    "  --require merged=12         this many vertices may be merged; needs cells=HASH\n"
     "  --require excluded=1-2 --require cells=HASH    pairs of labels that may be left out (--ignore)\n"
     "  --require empty             fewer than two cells that could touch\n"
     "or for all of them with the file that `noli verify --claim-out CLAIM.json` writes.\n"
@@ -95,8 +94,8 @@ std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   const std::vector<std::uint64_t> parts = parts_of_proof(proof, shard.of);
   if (const auto reason = stop_asked()) throw Stopped(*reason, proof.string());
   if (parts.empty()) {
-    throw UsageError(fmt::format("{}: {}; expected no --shard: without it `noli check` says what is the matter",
-                                 proof.string(), proof_cannot_be_cut));
+    throw UsageError(
+        fmt::format("{}: {}; drop --shard, and `noli check` says what is wrong", proof.string(), proof_cannot_be_cut));
   }
   if (parts.size() < shard.of) {
     const std::size_t steps = parts.size();
@@ -113,7 +112,7 @@ std::string parse_steps(const std::string& text) {
   const bool has_form = text.size() < 32 && std::regex_match(text, match, form);
   if (has_form && (!match[2].matched || std::stoull(match[1].str()) <= std::stoull(match[2].str()))) return text;
   throw UsageError(
-      fmt::format("--steps {}: expected A..B with 1 <= A <= B, or A..; 5..5 is step 5 alone", on_one_line(text)));
+      fmt::format("--steps {}: expected A..B with 1 <= A <= B, or A..; 5..5 is only step 5", on_one_line(text)));
 }
 
 /// The steps of --steps, --shard or --require steps=A..B; that is taken out of the words. Nothing if all are asked for.
@@ -181,7 +180,7 @@ fs::path proof_of(const CheckArguments& arguments, bool folder) {
     const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
     throw InputError(proof.string(), "", std::string("does not exist; expected a proof") + why);
   }
-  if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or one run alone");
+  if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or only a run");
   return proof;
 }
 
@@ -207,11 +206,11 @@ std::optional<CheckerVerdict> verdict_of(CheckRequest& request, const FrameReadi
 
 /// The answer about a whole proof, from those about its parts.
 ExitCode join(const CheckArguments& arguments) {
-  if (Ranks::started_by_mpirun()) throw UsageError("--join: is for one process; mpirun started several");
+  if (Ranks::started_by_mpirun()) throw UsageError("--join: runs in one process; start it without mpirun");
   const bool asks_more = !arguments.require.empty() || arguments.claim || arguments.verified ||
                          arguments.bodies.any() || arguments.order != FrameOrder::checked ||
                          !arguments.reading.keys.empty() || arguments.threads != 0;
-  if (asks_more) throw UsageError("--join: the answers were asked for already; expected their files alone");
+  if (asks_more) throw UsageError("--join: takes only files of answers and output options; drop all others");
   const Output output(arguments.results, arguments.files);
   std::vector<report::PartAnswer> answers;
   for (const fs::path& file : arguments.files) {
@@ -228,7 +227,7 @@ ExitCode run(CheckArguments& arguments) {
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
   const bool has_bodies = arguments.bodies.any();
   if (has_bodies && (folder || arguments.files.size() != 1))
-    throw UsageError("--body: expected one proof beside the bodies");
+    throw UsageError("--body: expected one proof in addition to the bodies");
   if (!folder && !has_bodies && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }
@@ -283,7 +282,7 @@ Command add_check(CLI::App& app) {
       ->type_name("PROOF TRAJECTORY | RUN | ANSWERS");
   command
       ->add_option("--require", arguments->require,
-                   "What the proof has to claim, a field of the claim; again for others")
+                   "A field of the claim that the proof has to make; may be repeated")
       ->type_name("FIELD=VALUE")
       ->allow_extra_args(false);  // what follows one are files
   command->add_option("--claim", arguments->claim, "The same from the file that `noli verify --claim-out` writes")

@@ -38,7 +38,7 @@ struct ExplainArguments {
 };
 
 ExitCode explain_folder(const ExplainArguments& arguments) {
-  if (arguments.brief) throw UsageError("--short: is for scenes; expected none with a run");
+  if (arguments.brief) throw UsageError("--short: applies to scenes only; drop it for a run");
   const Output output(arguments.results, {arguments.scene});
   if (!arguments.results.quiet) note_if_being_written(arguments.scene);
   const RunExplanation explanation = explain_run(arguments.scene);

@@ -96,7 +96,7 @@ ExitCode show_repair(const ExportArguments& arguments) {
   if (!arguments.at || !request.pattern.ends_with(".png")) {
     throw UsageError("a result of noli repair: expected --at TIME, in steps, and -o with a name that ends in .png");
   }
-  if (arguments.contact) throw UsageError("--contact: is for a result of noli verify; expected none of noli repair");
+  if (arguments.contact) throw UsageError("--contact: applies to results of noli verify; drop it for noli repair");
   require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   const report::PictureView view{arguments.from, size_of(arguments.size), arguments.zoom};
   const report::PictureOutcome shown =
@@ -116,7 +116,7 @@ ExitCode show_contact(const ExportArguments& arguments) {
     throw UsageError(std::string(option) + ": is for a run; with a result the picture shows a contact");
   }
   if (arguments.fps_given || !arguments.time_limit.empty()) {
-    throw UsageError("--fps, --time-limit: are for runs; expected neither with a result");
+    throw UsageError("--fps, --time-limit: apply to runs only; drop them for a result");
   }
   const bool picture = request.pattern.ends_with(".png");
   if (!picture && (arguments.from || !arguments.size.empty())) {
@@ -166,7 +166,7 @@ ExitCode run(const ExportArguments& arguments) {
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
   const bool film = request.pattern.ends_with(".png");
   if (!film && (view.from || view.size || !view.zoom.empty())) {
-    throw UsageError("--from, --size, --zoom: are of pictures; expected --at, or -o with a pattern that ends in .png");
+    throw UsageError("--from, --size, --zoom: are for pictures; expected --at, or -o with a pattern that ends in .png");
   }
   std::optional<ProgressBars> bars(std::in_place);
   ExportRequest told = request;
@@ -198,23 +198,23 @@ Command add_export(CLI::App& app) {
       ->required()
       ->type_name("PATTERN");
   command->add_flag("--force", request->force,
-                    "Replace files of that pattern that are there, and remove those that this export does not have; "
-                    "without it they are an error");
+                    "Replace existing files of that pattern, and remove those that this export does not write; without "
+                    "it they are an error");
   auto* const figure =
       command->add_option("--figure", arguments->figure, "Draw this instead: step-histogram, energy, momentum");
   figure->excludes(fps)->type_name("NAME");
   auto* const at =
       command->add_option("--at", arguments->at, "A picture of this time, in seconds, or in steps of a repair (.png)");
   at->excludes(fps)->excludes(figure);
-  command->add_flag("--given", arguments->given, "Of a result of `noli repair`: the motion as it was given");
-  command->add_option("--from", arguments->from, "Direction in which the eye is, of pictures: x y z, or x,y,z")
+  command->add_flag("--given", arguments->given, "With a result of `noli repair`: the motion as given");
+  command->add_option("--from", arguments->from, "Direction from which a picture is seen: x y z, or x,y,z")
       ->delimiter(',');
-  command->add_option("--size", arguments->size, "Pixels of a picture; else 640 wide")->type_name("WxH");
-  command->add_option("--zoom", arguments->zoom, "Of a run: a body that fills the picture; else all that moves is seen")
+  command->add_option("--size", arguments->size, "Pixels of a picture; default: 640 wide")->type_name("WxH");
+  command->add_option("--zoom", arguments->zoom, "With a run: the body that fills the picture; default: all that moves")
       ->type_name("BODY");
   command
       ->add_option("--contact", arguments->contact,
-                   "Of a result: which of the listed contacts, from 1; default: the first")
+                   "With a result: which of the listed contacts, from 1; default: the first")
       ->check(whole_number(1, 1'000'000'000))
       ->excludes(at)
       ->excludes(figure)

@@ -27,9 +27,9 @@ namespace noli::app {
 namespace {
 
 constexpr const char* info_footer =
-    "Meshes: format, counts, extent, what is degenerate; of files with many frames (.npz, .vtkhdf) those of the first, "
-    "and how many there are. Queries (CSV): how many, and how many have a label. Runs: windows, times, breakpoints, "
-    "bytes, and whether the files are whole. Proofs: what they claim, steps, times, bytes.\n"
+    "Meshes: format, counts, extent, what is degenerate; for files with many frames (.npz, .vtkhdf), those of the "
+    "first and the number of frames. Queries (CSV): how many, and how many have labels. Runs: windows, times, "
+    "breakpoints, bytes, and whether the files are whole. Proofs: what they claim, steps, times, bytes.\n"
     "Examples:\n"
     "  noli info frame.ply\n"
     "  noli info frames/*.obj --json info.json\n"

@@ -120,8 +120,8 @@ class Program {
       const std::string name = command.parser->get_name();
       if (Ranks::started_by_mpirun() && name != "verify" && name != "check") {
         throw UsageError(
-            fmt::format("mpirun started several ranks, and `noli {}` is for one process; NOLI_MPI=0 in its environment "
-                        "lets it be one",
+            fmt::format("mpirun started several ranks, but `noli {}` runs in one process; start it without mpirun, or "
+                        "with NOLI_MPI=0",
                         name));
       }
       return command.run();

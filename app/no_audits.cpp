@@ -17,7 +17,7 @@ std::vector<Command> add_audits(CLI::App& app) {
     command->allow_extras();
     commands.push_back({command, []() -> ExitCode {
                           throw UsageError(
-                              "this noli was built without `fuzz` and `audit`; expected one with NOLI_WITH_AUDIT=ON");
+                              "this noli was built without `fuzz` and `audit`; build it with NOLI_WITH_AUDIT=ON");
                         }});
   }
   return commands;

@@ -29,7 +29,7 @@ void tell_notes(const integrator::Explanation& explanation) {
   const std::vector<std::string> notes = integrator::notes(explanation);
   for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell_note(notes[i]);
   if (notes.size() <= most_notes) return;
-  tell_note(fmt::format("there are {} more, which explain tells", notes.size() - most_notes));
+  tell_note(fmt::format("`noli explain` lists {} more", notes.size() - most_notes));
 }
 
 void note_missing_short_form(const integrator::Scene& scene) {

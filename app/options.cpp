@@ -51,18 +51,18 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
       command.add_flag("--porcelain", options.porcelain, "Print one line of key=value pairs, for programs")
           ->group(group::output);
   auto* const quiet =
-      command.add_flag("-q,--quiet", options.quiet, "Print nothing: the exit code says it")->group(group::output);
+      command.add_flag("-q,--quiet", options.quiet, "Print nothing; use the exit code")->group(group::output);
   auto* const verbose =
       command
-          .add_flag("-v,--verbose", options.verbose, "Print also the statement, each file, each contact, and the work")
+          .add_flag("-v,--verbose", options.verbose, "Also print the statement, each file, each contact, and the work")
           ->group(group::output);
   quiet->excludes(porcelain)->excludes(verbose);
   verbose->excludes(porcelain);
-  command.add_flag("--force", options.force, "Outputs may replace files that exist")->group(group::output);
+  command.add_flag("--force", options.force, "Let outputs replace existing files")->group(group::output);
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "How many threads; 0: all there are")
+  command.add_option("--threads", threads, "Number of threads; 0: all")
       ->check(CLI::Range(0, 1024))
       ->type_name("N")
       ->group(group::limits);
@@ -138,8 +138,8 @@ void add_order_option(CLI::App& command, FrameOrder& order) {
       .add_option_function<std::string>(
           "--order",
           [&order](const std::string& word) { order = word == "natural" ? FrameOrder::natural : FrameOrder::given; },
-          "natural sorts frames by the numbers in their names, given takes them as they are. Without it, frames given "
-          "against these numbers are an error")
+          "natural sorts frames by the numbers in their names, given keeps them as they are. Without it, frames out of "
+          "order by these numbers are an error")
       ->check(CLI::IsMember({"natural", "given"}))
       ->type_name("natural|given");
 }
@@ -147,8 +147,8 @@ void add_order_option(CLI::App& command, FrameOrder& order) {
 void add_keys_option(CLI::App& command, std::vector<std::string>& keys) {
   command
       .add_option("--keys", keys,
-                  "Names of arrays in a .npz file: the positions, then faces (edges, points); default: those that can "
-                  "be no other")
+                  "Names of arrays in a .npz file: the positions, then faces (edges, points); default: those that are "
+                  "unambiguous")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("POSITIONS,FACES")

@@ -45,15 +45,15 @@ void require_file(const OutputFile& output) {
 void require_regular(const OutputFile& output) {
   std::error_code error;
   const bool regular = is_regular_or_nothing(output.path) && !fs::is_symlink(output.path, error);
-  if (output.only_files && !regular) refuse(output, "is no regular file; expected the name of a file");
+  if (output.only_files && !regular) refuse(output, "is not a regular file; expected the name of a file");
 }
 
 void require_not_read(const OutputFile& output, const fs::path& input) {
-  if (one_file(output.path, input)) refuse(output, "is read too; expected a file that is not");
+  if (one_file(output.path, input)) refuse(output, "is also an input; expected another file");
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(input, error)) {
     if (entry.is_regular_file(error) && one_file(output.path, entry.path())) {
-      refuse(output, "is read too; expected a file that is not");
+      refuse(output, "is also an input; expected another file");
     }
   }
 }

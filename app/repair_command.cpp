@@ -28,10 +28,9 @@ namespace {
 
 constexpr const char* repair_footer =
     "Writes another motion near the given one, in which nothing touches. A step that touches nothing stays as it is; "
-    "in any other, the vertices are masses that contact alone stops. Where straight lines between the frames would "
-    "still touch, frames are inserted: times.csv says which is when. Everything that is written has been decided "
-    "exactly, "
-    "and the last line is what noli verify says of it:\n"
+    "in all others, the vertices are masses that only contact stops. Where straight lines between the frames would "
+    "still touch, frames are inserted; times.csv lists their times. Everything that is written has been decided "
+    "exactly, and the last line is noli verify's verdict:\n"
     "  proved      the checker accepted the proof: nothing touches            exit 0\n"
     "  no_contact  decided exactly, not checked (--no-check)                  exit 0\n"
     "  cannot_be   the first frame touches, or fixed vertices meet            exit 1\n"
@@ -161,14 +160,14 @@ Command add_repair(CLI::App& app) {
   add_output_options(*command, arguments->results);
   add_threads_option(*command, request.threads);
   add_time_limit_option(*command, arguments->time_limit);
-  command->add_option("--restitution", request.restitution, "Share of the energy of an approach that comes back")
+  command->add_option("--restitution", request.restitution, "Share of the approach energy that comes back")
       ->check(is_share())
       ->capture_default_str()
       ->type_name("E")
       ->group(group::question);
   command
       ->add_option("--masses", request.masses,
-                   "Of vertices: size (by area and length), uniform, or a text file with a number for each")
+                   "Masses of vertices: size (by area and length), uniform, or a text file with one number each")
       ->capture_default_str()
       ->type_name("size|uniform|FILE")
       ->group(group::question);
@@ -179,7 +178,7 @@ Command add_repair(CLI::App& app) {
       ->group(group::question);
   command
       ->add_option("--spread", request.spread,
-                   "What contact moves takes its surroundings along, over about so many edges; 0: contact alone")
+                   "Contact also moves the surroundings, over about this many edges; 0: only what touches")
       ->check(whole_number(0, 100))
       ->capture_default_str()
       ->type_name("EDGES")
@@ -191,7 +190,7 @@ Command add_repair(CLI::App& app) {
       ->group(group::question);
   command
       ->add_flag("--only-new", request.only_new,
-                 "Cells that intersect in the first frame are not compared: they may go on so")
+                 "Cells that intersect in the first frame are not compared: they may stay so")
       ->group(group::question);
   command
       ->add_flag("--points", request.points,

@@ -37,9 +37,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* report_footer =
-    "Writes one page with everything in it, for any browser, without a network: verdict, motion and "
-    "contacts, statement, energies, steps and gaps over time, tables of audits, pictures. It decides nothing "
-    "again.\n"
+    "Writes one self-contained page for any browser, also without a network: verdict, motion and contacts, statement, "
+    "energies, steps and gaps over time, tables of audits, pictures. It decides nothing again.\n"
     "\n"
     "Inputs come in any order: one run; results that noli wrote with --json; the frames that a result of "
     "`noli verify` is about; pictures (.svg). A result of `noli repair` brings its frames, given and repaired.\n"
@@ -295,7 +294,7 @@ void open_in_browser(const fs::path& page) {
 ExitCode run(const ReportArguments& arguments) {
   begin_work(arguments.time_limit);
   if (!report::has_report_page())
-    throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
+    throw UsageError("this noli was built without reports; build it with NOLI_WITH_REPORT=ON");
   require_output_files({{"-o", arguments.output, true}}, arguments.inputs, arguments.force);
   Report report(arguments);
   const report::ReportPage& page = report();
@@ -326,12 +325,12 @@ Command add_report(CLI::App& app) {
   command->add_option("--title", arguments->title, "Its heading")->type_name("TEXT");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);
-  command->add_option("--fps", arguments->limits.fps, "Frames a second of simulated time, at most")
+  command->add_option("--fps", arguments->limits.fps, "At most this many frames per second of simulated time")
       ->check(is_positive())
       ->check(is_rate())
       ->capture_default_str();
   command->add_flag("--open", arguments->open, "Open the page in a browser");
-  command->add_flag("--force", arguments->force, "Replace a page that is there");
+  command->add_flag("--force", arguments->force, "Replace an existing page");
   add_time_limit_option(*command, arguments->time_limit, "Stop after this time, without a page: 500ms, 60s, 5m, 1h");
   return {command, [arguments] { return run(*arguments); }};
 }

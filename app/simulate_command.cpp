@@ -35,13 +35,12 @@ ExitCode exit_code(const SimulateOutcome& outcome) {
 }
 
 constexpr const char* simulate_footer =
-    "Each window of simulated time is verified exactly before it is committed, so a run never contains a "
-    "contact. Where one comes, the run ends with the features, the kind and the exact first time; the "
-    "windows before it stay.\n"
+    "Each window of simulated time is verified exactly before it is committed, so a run never contains a contact. At "
+    "the first one, the run ends and reports the features, the kind and the exact time; earlier windows stay.\n"
     "\n"
-    "An interrupted run (Ctrl-C) goes on with --resume, and ends with the same bytes. A run that was stopped "
-    "while its model was built has no folder yet: begin it again. The bytes to come are printed before a run "
-    "begins; a disk that cannot hold them is an error (exit 4). Windows count from 1.\n"
+    "An interrupted run (Ctrl-C) continues with --resume, and ends with the same bytes. A run that was stopped while "
+    "its model was built has no folder yet: begin it again. The predicted size is printed before a run begins; too "
+    "little space on the disk is an error (exit 4). Windows count from 1.\n"
     "\n"
     "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), "
     "not_finite (numbers overflow), unstable (all windows are there, but the energy is off by more than a "
@@ -121,11 +120,11 @@ Command add_simulate(CLI::App& app) {
       ->required()
       ->type_name("RUN");
   command->add_flag("--short", request.brief, "The scene's short form");
-  auto* const resume = command->add_flag("--resume", request.resume, "Go on with the run that is in the folder");
+  auto* const resume = command->add_flag("--resume", request.resume, "Continue the run in the folder");
   command
       ->add_flag_callback(
           "--no-proof", [&request] { request.prove = false; },
-          "Write no proofs of the windows (only with \"record\": \"full\" there are any)")
+          "Write no proofs of the windows (there are some only with \"record\": \"full\")")
       ->excludes(resume);
   auto* const until =
       command->add_option("--until", request.until, "Simulated time to stop at; default: the scene's duration")
@@ -134,10 +133,10 @@ Command add_simulate(CLI::App& app) {
   command->add_flag("--past-duration", request.past_duration, "--until may lie beyond the scene's duration")
       ->needs(until);
   command->add_flag("--ignore-space", request.ignore_space,
-                    "Begin although the disk will not hold the run, by what explain predicts of its bytes");
+                    "Begin even if the disk is too full for the run, by the size that explain predicts");
   auto* const again = command
                           ->add_option("--reproduce", arguments->reproduce,
-                                       "Integrate one window of this run again; its block goes to the file -o")
+                                       "Integrate one window of this run again and write its block to the file -o")
                           ->type_name("RUN")
                           ->excludes(resume)
                           ->excludes(until);
@@ -145,13 +144,12 @@ Command add_simulate(CLI::App& app) {
       ->check(whole_number(1, std::numeric_limits<std::uint64_t>::max()))
       ->needs(again)
       ->type_name("K");
-  add_time_limit_option(
-      *command, arguments->time_limit,
-      "Stop after this time: 500ms, 60s, 5m, 1h; the window that is open then is dropped. To write series.h5 "
-      "comes on top, and Ctrl-C ends that too");
+  add_time_limit_option(*command, arguments->time_limit,
+                        "Stop after this time: 500ms, 60s, 5m, 1h; an unfinished window is dropped. Writing series.h5 "
+                        "takes extra time; Ctrl-C ends that too");
   add_output_options(*command, arguments->results);
   command->get_option("--force")->description(
-      "Replace the run that is in the folder (not with --resume), and outputs that exist");
+      "Replace the run in the folder (not with --resume), and existing outputs");
   add_threads_option(*command, request.threads);
   return {command, [arguments] { return run(*arguments); }};
 }

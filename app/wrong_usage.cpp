@@ -160,14 +160,14 @@ struct Wording {
   const char* ours;
 };
 constexpr std::array<Wording, 8> wordings = {{
-    {{"Could not convert: ", " = "}, "{0}: {1} is no number;"},
+    {{"Could not convert: ", " = "}, "{0}: {1} is not a number;"},
     {{"", ": Value ", " not in range ", " to "}, "{0}: {1} is wrong; expected a number from {2} to {3};"},
     {{"", " excludes "}, "{0} and {1} cannot be combined; drop one of them;"},
     {{"", " requires "}, "{0} needs {1};"},
     {{"", ": 1 required ", " missing"}, "{0} needs a value, {1};"},
     {{"", ": ", " required ", " missing"}, "{0} needs {1} values, {2};"},
     {{"", ": At Most 1 required but received "}, "{0} was given {1} times; expected it once;"},
-    {{"", ": At least ", " required but received "}, "{0} needs {1} values, and got {2};"},
+    {{"", ": At least ", " required but received "}, "{0} needs {1} values, but got {2};"},
 }};
 
 /// The parts of what is said, without checks behind the name of a type ("N:INT in [0 - 9]"); nothing if it is not so.
@@ -263,7 +263,7 @@ std::optional<std::string> option_before_command(const CLI::App& app, const CLI:
   const bool before = &app != &command && is_option(arguments.front()) && !known_option(app, arguments.front()) &&
                       known_option(command, arguments.front());
   if (!before) return std::nullopt;
-  return fmt::format("{} stands before the command; expected it behind: {} {}", arguments.front(), full_name(command),
+  return fmt::format("{} comes before the command; put it behind: {} {}", arguments.front(), full_name(command),
                      arguments.front());
 }
 

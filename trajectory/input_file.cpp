@@ -113,7 +113,7 @@ void require_regular_file(const std::filesystem::path& path) {
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(there) || std::filesystem::is_regular_file(there)) return;
-  throw InputError(path.string(), "", "is no regular file; expected one");
+  throw InputError(path.string(), "", "is not a regular file; expected one");
 }
 
 std::ifstream open_regular_file(const std::filesystem::path& path) {

@@ -34,7 +34,7 @@ fs::path new_file(const fs::path& folder) {
 void require_file_or_nothing(const fs::path& path) {
   const fs::file_status there = fs::symlink_status(path);
   if (!fs::exists(there) || fs::is_regular_file(there)) return;
-  throw std::system_error(std::make_error_code(std::errc::invalid_argument), path.string() + ": is no regular file");
+  throw std::system_error(std::make_error_code(std::errc::invalid_argument), path.string() + ": is not a regular file");
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ namespace noli::app {
 namespace {
 
 constexpr const char* merge_footer =
-    "The verdict, the JSON (except \"timing\") and the proof are those of one process that verifies everything. The "
-    "frames, or the run, must still be there by the names that `noli verify --shard` was given. No step is decided "
-    "again. A shard that is missing, damaged, or of other files is an error.\n"
+    "The verdict, the JSON (except \"timing\") and the proof are the same as from one process that verifies "
+    "everything. The frames, or the run, must still have the names that `noli verify --shard` was given. No step is "
+    "decided again. A shard that is missing, damaged, or of other files is an error.\n"
     "Examples:\n"
     "  noli verify 'frames/*.ply' --shard 1/2 -o shards\n"
     "  noli verify 'frames/*.ply' --shard 2/2 -o shards\n"

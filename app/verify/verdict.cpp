@@ -64,7 +64,7 @@ VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
     return outcome;
   } catch (const std::exception&) {
     if (!motion.was_replaced()) throw;
-    throw InputError(request.frames[0].string(), "", "was replaced while it was read; expected a run that stays");
+    throw InputError(request.frames[0].string(), "", "was replaced while it was read; verify it again");
   }
 }
 

@@ -29,7 +29,7 @@ constexpr const char* verify_footer =
     "coordinates are taken as they are. A separate checker then checks the proof. The last line is the "
     "verdict:\n"
     "  proved      the checker accepted the proof: nothing touches            exit 0\n"
-    "  no_contact  decided exactly, not checked (--no-check, or a note: why)  exit 0\n"
+    "  no_contact  decided exactly, not checked (--no-check, or see the note)  exit 0\n"
     "  contact     something touches; the line names step, time and features  exit 1\n"
     "  too_near    with --min-distance: something comes nearer than that      exit 1\n"
     "  undecided   a limit was reached, or the work was interrupted           exit 2\n"
@@ -121,7 +121,7 @@ ShardWork shard_work(const VerifyArguments& arguments) {
 ExitCode run(VerifyArguments& arguments) {
   VerifyRequest& request = arguments.request;
   if (Ranks::started_by_mpirun() && !arguments.shard.empty()) {
-    throw UsageError("--shard: mpirun shares the steps out to its ranks; expected one of the two");
+    throw UsageError("--shard: mpirun already divides the steps among its ranks; drop one of the two");
   }
   if (arguments.shards && arguments.shard.empty() && !Ranks::is_mpi_job()) {
     throw UsageError("-o: is the folder of --shard; expected --json OUT, which writes the result");
@@ -136,7 +136,7 @@ ExitCode run(VerifyArguments& arguments) {
   } else if (!request.run) {
     request.put_in_order();
   } else if (request.order != FrameOrder::checked || request.reading.polygons != PolygonRule::fan) {
-    throw UsageError("--order, --polygons: are for frames; expected none of them with a run");
+    throw UsageError("--order, --polygons: apply to frames only; drop them for a run");
   }
   if (request.follow && !request.run) {
     throw UsageError("--follow: is for a run of `noli simulate`; expected its folder, found frames");
@@ -145,7 +145,7 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--trajectory: is for frames; a run has its trajectory.blocks");
   }
   if (request.divide && arguments.shard.empty() && !Ranks::is_mpi_job()) {
-    throw UsageError("--divide: shares one step among processes; expected --shard K/N with it, or mpirun");
+    throw UsageError("--divide: divides one step among processes; add --shard K/N, or use mpirun");
   }
   request.live = request.run && is_locked(request.frames[0]);
   request.prepare_to_reproduce();
@@ -155,7 +155,7 @@ ExitCode run(VerifyArguments& arguments) {
     throw UsageError("--github, --json -: both write to standard output; expected one of them");
   }
   if (request.min_distance == 0 && request.ring > 1) {
-    throw UsageError("--min-distance-from-ring: says who may be near; expected --min-distance DISTANCE");
+    throw UsageError("--min-distance-from-ring: only works with --min-distance DISTANCE; add that");
   }
   VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
   if (!arguments.shard.empty()) return answer_shard(request, shard_work(arguments), *output);
@@ -184,8 +184,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->excludes(keep_going);
   command.add_option("--proof", request.proof, "Write the proof to this file, for `noli check`")->type_name("OUT");
   command
-      .add_option("--trajectory", request.trajectory,
-                  "Write all frames to this block file, which checkers read: numbers bit for bit")
+      .add_option("--trajectory", request.trajectory, "Write all frames, bit for bit, to this block file for checkers")
       ->type_name("OUT");
   command.add_flag_callback(
       "--no-check", [&request] { request.check = false; },
@@ -199,11 +198,11 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
       ->group(group::output);
   command
       .add_option("--shard", arguments.shard,
-                  "Decide the K-th of N parts of the steps alone, for `noli merge`; needs -o")
+                  "Decide only the K-th of N parts of the steps, for `noli merge`; needs -o")
       ->type_name("K/N");
   command
       .add_option("-o,--output", arguments.shards,
-                  "The folder for what --shard or ranks of mpirun find; made if it is not there")
+                  "The folder for results of --shard or of mpirun's ranks; created if missing")
       ->type_name("SHARDS");
   command.add_flag("--divide", request.divide,
                    fmt::format("Cut the step between two frames of a huge mesh into {} tasks, for --shard or mpirun",
@@ -271,12 +270,13 @@ void add_run_options(CLI::App& command, VerifyRequest& request) {
   constexpr const char* runs = "Runs of noli simulate";
   command
       .add_flag("--follow", request.follow,
-                "Verify a run while it is being written, each window when it is committed, to the run's end")
+                "Verify a run while it is being written, each window when it is committed, until the run ends")
       ->group(runs);
   auto* const again =
       command
-          .add_flag("--reproduce", request.reproduce,
-                    "Of a run that recorded frames: integrate its windows again, and verify them if their hashes agree")
+          .add_flag(
+              "--reproduce", request.reproduce,
+              "For a run that recorded frames: integrate its windows again, and verify them if their hashes agree")
           ->group(runs);
   command
       .add_option("--scene-folder", request.scene_folder,

@@ -29,7 +29,7 @@ std::string place_of(const ShardWork& work, const ShardOutcome& outcome, const c
                                   work.of, outcome.done, outcome.tasks_total, outcome.already_done, outcome.not_needed);
   if (outcome.first_touch) place += fmt::format("; something touches in {} {}", step, *outcome.first_touch);
   if (outcome.first_near) place += fmt::format("; something comes too near in {} {}", step, *outcome.first_near);
-  if (outcome.unproved) place += fmt::format("; no proof was found of some {}", step);
+  if (outcome.unproved) place += fmt::format("; no proof was found for some {}", step);
   if (outcome.interrupted) place += "; interrupted";
   if (outcome.out_of_time) place += "; time limit";
   return place;
@@ -47,7 +47,7 @@ report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome, 
   answer.place = place_of(work, outcome, step_word);
   answer.next = outcome.complete() ? fmt::format("when all shards are done, noli merge {} gives the verdict.",
                                                  on_one_line(work.folder.string()))
-                                   : "the same command does what is missing.";
+                                   : "run the same command for the rest.";
   return answer;
 }
 
@@ -57,8 +57,7 @@ ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesy
                          const VerdictOutputs& outputs, const Output* output) {
   if (request.live && !request.follow) {
     throw UsageError(
-        "another process writes to the run, so ranks may see different windows; expected --follow, or a run that has "
-        "ended");
+        "another process writes to the run, so ranks may see different windows; pass --follow, or wait until it ends");
   }
   request.stop = &interrupted();
   const int threads = request.threads;
@@ -69,7 +68,7 @@ ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesy
   work.are_needed = [&ranks] { return !ranks.counter_is_closed(); };
   request.progress = [&ranks](std::string_view /*work*/, double /*share*/) { ranks.serve(); };
   if (!verify_shard(request, work).complete()) {
-    tell_note(fmt::format("rank {} was stopped; the same command does what is missing", ranks.rank()));
+    tell_note(fmt::format("rank {} was stopped; run the same command for the rest", ranks.rank()));
     return ExitCode::undecided;
   }
   ranks.barrier();

@@ -34,7 +34,7 @@ class Reading {
       : file_(std::move(file)) {
     std::error_code error;
     if (std::filesystem::exists(file_, error) && !std::filesystem::is_regular_file(file_, error)) {
-      throw InputError(file_.string(), "", "is no regular file; expected one, as HDF5 is not read in its order");
+      throw InputError(file_.string(), "", "is not a regular file; expected one, as HDF5 is not read in its order");
     }
     input_.take(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (input_.get() < 0)

@@ -28,7 +28,7 @@ std::string steps_of_part(const std::vector<std::uint64_t>& firsts, std::size_t 
 
 /// Why not: what is said of such a proof, after its name.
 inline constexpr const char* proof_cannot_be_cut =
-    "cannot be cut into parts, as it has a witness, is damaged, or is no regular file";
+    "cannot be cut into parts, as it has a witness, is damaged, or is not a regular file";
 
 /// If one word is about steps, and is steps=A..B or steps=A..: takes it out of those that are asked, and returns its
 /// value.

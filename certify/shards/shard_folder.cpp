@@ -49,7 +49,7 @@ void make(const fs::path& folder) {
 void require_regular(const fs::path& file) {
   std::error_code error;
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
-    throw InputError(file.string(), "", "is no regular file; expected one that `noli verify --shard` wrote");
+    throw InputError(file.string(), "", "is not a regular file; expected one that `noli verify --shard` wrote");
   }
 }
 

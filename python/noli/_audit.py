@@ -228,7 +228,7 @@ def fuzz_queries(
     if seconds is None and count is None:
         raise UsageError("expected seconds=, count= or both")
     if not hasattr(_core, "adversarial_queries"):
-        raise UsageError("this noli was built without audits; expected one with NOLI_WITH_AUDIT=ON")
+        raise UsageError("this noli was built without audits; build it with NOLI_WITH_AUDIT=ON")
     pairs = words(pairs)
     if not pairs:
         raise UsageError(f"pairs: expected one of {', '.join(ASKED)} at least")

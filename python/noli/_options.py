@@ -102,7 +102,7 @@ def stem(file: Any) -> str:
 
 
 def threads_of(value: int) -> int:
-    """0: all there are. Raises UsageError."""
+    """0: all. Raises UsageError."""
     return whole(value, "threads", 0, MOST_THREADS)
 
 

@@ -58,7 +58,7 @@ def contacts(pair: str, x_t0: ArrayLike, x_t1: ArrayLike, *, times: bool = True,
     times : bool
         Also finds kind and time of each contact, which takes longer.
     threads : int
-        0: all there are.
+        0: all.
 
     Returns
     -------

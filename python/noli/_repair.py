@@ -103,7 +103,7 @@ class Repaired:
     ) -> None:
         """Writes a picture of the repaired motion, or with ``given`` of the one before, at a time in steps.
 
-        Both have the same view. Needs ``output``. ``view``: the direction in which the eye is; ``size``: width and height
+        Both have the same view. Needs ``output``. ``view``: the direction from which they are seen; ``size``: width and height
         [pixels]; ``zoom``: the body that fills it.
         """
         if not self._kept:
@@ -172,11 +172,11 @@ def repair(
     masses : (vertices,) positive numbers, or "uniform"
         Default: by area and length.
     restitution : float
-        Share of the energy of an approach that comes back, 0 to 1.
+        Share of the approach energy that comes back, 0 to 1.
     friction : float
         Coulomb's coefficient.
     spread : int
-        What contact moves takes its surroundings along, over about so many edges. 0: contact alone.
+        Contact also moves the surroundings, over about this many edges. 0: only what touches.
     run : str, optional
         A folder for the motion as contact made it: a run, in which a step takes one second.
     only_new, points, dimension, proof, check, threads, time_limit, force, progress

@@ -118,7 +118,7 @@ class Run:
         fps : float
             Frames a second; a run with record "frames" has its own.
         view : (x, y, z)
-            Of pictures: the direction in which the eye is.
+            Of pictures: the direction from which they are seen.
         size : (width, height)
             Of pictures [pixels].
         zoom : str

@@ -66,7 +66,7 @@ def time_of_impact(
     dimension : 2 or 3, optional
         2 ignores z. Default: 2 if both have one z, else 3.
     threads : int
-        0: all there are.
+        0: all.
 
     Returns
     -------

@@ -301,7 +301,7 @@ def verify(
     max_reports : int
         How many contacts are listed; counts do not depend on it.
     threads : int
-        0: all there are.
+        0: all.
     time_limit : float, optional
         Seconds; what is not decided by then is "undecided".
     order : "checked", "natural" or "given"

@@ -20,7 +20,7 @@ namespace noli::python {
 inline void write_page(const std::filesystem::path& file, const std::string& title,
                        const std::function<void(report::ReportPage&)>& fill) {
   if (!report::has_report_page()) {
-    throw UsageError("this noli was built without reports; expected one with NOLI_WITH_REPORT=ON");
+    throw UsageError("this noli was built without reports; build it with NOLI_WITH_REPORT=ON");
   }
   report::ReportPage page;
   page.page = report::empty_page();

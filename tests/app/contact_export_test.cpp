@@ -138,7 +138,7 @@ TEST_F(ContactExport, RefusesWhatIsForRuns) {
   expect_refused(export_to("hits.ply"), "ends in .vtu or .png");
   expect_refused(export_to("hits.png", {"--at", "1"}), "--at: is for a run");
   expect_refused(export_to("hits.png", {"--zoom", "ball"}), "--zoom: is for a run");
-  expect_refused(export_to("hits.png", {"--fps", "24"}), "are for runs");
+  expect_refused(export_to("hits.png", {"--fps", "24"}), "apply to runs only");
   expect_refused(export_to("hits.vtu", {"--size", "200x150"}), "are for pictures");
 }
 

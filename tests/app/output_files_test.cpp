@@ -122,13 +122,13 @@ TEST_F(OutputFiles, NoneIsRead) {
   fs::create_symlink("a.ply", run_path("link"));
   fs::create_hard_link(run_path("b.ply"), run_path("hard"));
   for (const char* name : {"a.ply", "link", "hard"}) {
-    expect_refused(forced(verify({"--json", run_path(name)})), "is read too");
-    expect_refused(forced(verify({"--proof", run_path(name)})), "is read too");
+    expect_refused(forced(verify({"--json", run_path(name)})), "is also an input");
+    expect_refused(forced(verify({"--proof", run_path(name)})), "is also an input");
   }
   EXPECT_EQ(bytes_of(run_path("a.ply")), two_triangles(1));
   const std::string run_folder = run();
   fs::create_hard_link(run_folder + "/trajectory.blocks", run_path("blocks"));
-  expect_refused(forced({"verify", run_folder, "--json", run_path("blocks")}), "is read too");
+  expect_refused(forced({"verify", run_folder, "--json", run_path("blocks")}), "is also an input");
 }
 
 TEST_F(OutputFiles, NoneIsReadByAScene) {
@@ -141,8 +141,8 @@ TEST_F(OutputFiles, NoneIsReadByAScene) {
                      {"material", {{"young", 1e4}, {"density", 200}, {"thickness", 0.001}}}}};
   const std::string scene = folder.write("named.json", json.dump(2));
   EXPECT_EQ(run_noli({"explain", scene}).exit_code, 0);
-  expect_refused({"explain", scene, "--json", mesh, "--force"}, "is read too");
-  expect_refused({"simulate", scene, "-o", run_path("named"), "--json", mesh, "--force"}, "is read too");
+  expect_refused({"explain", scene, "--json", mesh, "--force"}, "is also an input");
+  expect_refused({"simulate", scene, "-o", run_path("named"), "--json", mesh, "--force"}, "is also an input");
   EXPECT_EQ(bytes_of(mesh), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run_noli({"simulate", scene, "-o", run_path("named"), "--json", run_path("result")}).exit_code, 0);
 }

@@ -69,7 +69,7 @@ TEST_F(JsonOutput, TakesThePlaceOfTheTextOnStandardOutput) {
 TEST_F(JsonOutput, IsNeverWrittenOverAnInput) {
   const Process process = run(mesh);
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("is read too"), std::string::npos) << process.err;
+  EXPECT_NE(process.err.find("is also an input"), std::string::npos) << process.err;
   EXPECT_EQ(run_noli({"info", mesh}).exit_code, 0);  // still a mesh
 }
 

@@ -236,7 +236,7 @@ TEST_F(ExportPicture, BadInputIsNamed) {
   expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "with one %d");
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--from", "0,0,1"}, {"--size", "64x64"}, {"--zoom", "sheet"}}) {
-    expect_refused({option[0], option[1], "-o", run_path("%d.ply")}, "are of pictures; expected --at");
+    expect_refused({option[0], option[1], "-o", run_path("%d.ply")}, "are for pictures; expected --at");
   }
   for (const char* size : {"640", "640x", "x480", "640x480x3", "15x100", "100x8193", "-5x100", "a"}) {
     expect_refused({"--at", "0.1", "--size", size, "-o", run_path("p.png")}, "expected WIDTHxHEIGHT in pixels");

@@ -513,7 +513,7 @@ TEST_F(Report, ReplacesNothingButFiles) {
   for (const std::string& there : {pipe, link, dangling, std::string("/dev/null")}) {
     const Process process = run_noli({"report", result, "-o", there, "--force"});
     EXPECT_EQ(process.exit_code, 3) << there;
-    EXPECT_NE(process.err.find("is no regular file"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("is not a regular file"), std::string::npos) << process.err;
   }
   EXPECT_TRUE(fs::is_fifo(pipe) && fs::is_symlink(link) && fs::is_symlink(dangling));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));

@@ -99,7 +99,7 @@ constexpr WrongUsage wrong_usages[] = {
     {"simulate_shrot", "simulate s.json -o r --shrot", "did you mean --short?"},
     {"explain_nothing", "explain", "needs SCENE.json|RUN"},
     {"export_no_output", "export run", "needs -o, --output"},
-    {"export_at_x", "export run -o x.png --at x", "--at: x is no number"},
+    {"export_at_x", "export run -o x.png --at x", "--at: x is not a number"},
     {"export_at_and_fps", "export run -o x.png --at 1 --fps 3", "cannot be combined"},
     {"export_size", "export run -o x.png --at 1 --size 10", "expected WIDTHxHEIGHT"},
     {"report_no_output", "report r.json", "needs -o, --output OUT.html"},
@@ -114,7 +114,7 @@ constexpr WrongUsage wrong_usages[] = {
     {"fuzz_minimize", "fuzz queries --minimize f.csv", "did you mean --minimise?"},
     {"fuzz_tolerance_alone", "fuzz queries --tolerance 1", "needs --library"},
     {"audit_ccd_no_library", "audit ccd q.csv", "needs --library LIB.so"},
-    {"audit_ccd_one_frame", "audit ccd --library x.so --frames a.ply", "needs 2 values, and got 1"},
+    {"audit_ccd_one_frame", "audit ccd --library x.so --frames a.ply", "needs 2 values, but got 1"},
     {"audit_only_fuz", "audit self --only fuz", "fuz"},
 };
 

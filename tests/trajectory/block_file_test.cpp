@@ -183,7 +183,7 @@ TEST(BlockFileErrors, OfTheFileSystem) {
   EXPECT_EQ(input_error([&] { read("absent"); }),
             (folder / "absent").string() + ": cannot be opened: No such file or directory");
   EXPECT_EQ(input_error([&] { BlockReader(folder.path(), content).next(); }),
-            folder.path().string() + ": is no regular file; expected one");
+            folder.path().string() + ": is not a regular file; expected one");
 }
 
 /// The disk has space for one more byte.
@@ -211,7 +211,7 @@ TEST(FileSink, WritesToFilesOnly) {
     FileSink("/dev/null", FileSink::Open::existing).write("x");
     ADD_FAILURE();
   } catch (const std::system_error& error) {
-    EXPECT_STREQ(error.what(), "/dev/null: is no regular file: Invalid argument");
+    EXPECT_STREQ(error.what(), "/dev/null: is not a regular file: Invalid argument");
   }
 }
 

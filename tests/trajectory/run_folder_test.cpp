@@ -149,7 +149,7 @@ TEST(RunLog, WantsChecksumsAndAFile) {
             std::string::npos);
   std::filesystem::remove(folder / "log.jsonl");
   ASSERT_EQ(::mkfifo((folder / "log.jsonl").c_str(), 0600), 0);
-  EXPECT_NE(input_error([&] { entries(folder); }).find("is no regular file"), std::string::npos);
+  EXPECT_NE(input_error([&] { entries(folder); }).find("is not a regular file"), std::string::npos);
   EXPECT_THROW(FileSink(folder / "log.jsonl", FileSink::Open::existing), std::system_error);
 }
 

@@ -32,7 +32,7 @@ int open_file(const std::string& name, FileSink::Open how) {
   const int error = regular ? errno : EINVAL;
   ::close(descriptor);
   throw std::system_error(error, std::generic_category(),
-                          name + (regular ? ": is being written by another process" : ": is no regular file"));
+                          name + (regular ? ": is being written by another process" : ": is not a regular file"));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ void remove_other_frames(const ProofFiles& files, const fs::path& folder) {
 /// A device would be read until memory is full.
 std::string read_regular_file(const fs::path& file) {
   if (fs::exists(file) && !fs::is_regular_file(file))
-    throw InputError(file.string(), "", "is no regular file; expected one that was saved");
+    throw InputError(file.string(), "", "is not a regular file; expected one that was saved");
   return read_whole_file(file);
 }
 

@@ -259,7 +259,7 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
   refused({"--library", folder.path("absent.so"), "--count", "1"}, "absent.so");
   refused({"--library", folder.path("absent.so"), "--replay", falling}, "absent.so");
   refused({"--library", plugin("noli"), "--replay", folder.path("absent")}, "absent");
-  refused({"--library", plugin("noli"), "--replay", falling, "--json", falling + "/frame-0.ply"}, "is read too");
+  refused({"--library", plugin("noli"), "--replay", falling, "--json", falling + "/frame-0.ply"}, "is also an input");
   refused({"--library", plugin("noli"), "--replay", falling, "--first-only"}, "--first-only");
   refused({"--library", plugin("noli"), "--count", "1", "--verified-every", "2"}, "--verified-every");
   refused({"--library", plugin("noli"), "--replay", falling, "--family", "landing"}, "--family");

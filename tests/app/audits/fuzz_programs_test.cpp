@@ -114,7 +114,7 @@ TEST(FuzzPrograms, DoNotOverwriteWhatTheyReplay) {
       const auto before = std::filesystem::file_size(file);
       const Process process = run_noli({"fuzz", what, option, folder.path(""), "--json", file});
       EXPECT_EQ(process.exit_code, 3) << file << process.out;
-      EXPECT_NE(process.err.find("is read too"), std::string::npos) << process.err;
+      EXPECT_NE(process.err.find("is also an input"), std::string::npos) << process.err;
       EXPECT_EQ(std::filesystem::file_size(file), before);
     }
   }
@@ -320,7 +320,7 @@ TEST(FuzzProofsCommand, ReplaysNoDevices) {
   options.address_space = std::uint64_t{1} << 30;
   const auto refuses = [&] {
     const Process process = run_noli({"fuzz", "proofs", "--replay", folder.path("")}, options);
-    EXPECT_NE(process.err.find("is no regular file"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("is not a regular file"), std::string::npos) << process.err;
     return process.exit_code == 3;
   };
   std::filesystem::create_symlink("/dev/zero", proof);

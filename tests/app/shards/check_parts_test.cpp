@@ -210,9 +210,9 @@ TEST_F(JoinedAnswers, AreAcceptedPartsAsCheckersSayThem) {
   refused("does not fit together", [](Json& json) { json["words"] = "accepted: nothing touches"; });
   expect_refused({at("1"), folder.write("no.json", "{")}, "no.json");
   expect_refused({at("1"), folder.path("none.json")}, "none.json");
-  expect_refused({at("1"), at("2"), at("3"), "--verified"}, "expected their files alone");
-  expect_refused({at("1"), at("2"), at("3"), "--require", "steps=8"}, "expected their files alone");
-  expect_refused({at("1"), at("2"), at("3"), "--threads", "2"}, "expected their files alone");
+  expect_refused({at("1"), at("2"), at("3"), "--verified"}, "takes only files of answers");
+  expect_refused({at("1"), at("2"), at("3"), "--require", "steps=8"}, "takes only files of answers");
+  expect_refused({at("1"), at("2"), at("3"), "--threads", "2"}, "takes only files of answers");
   expect_refused({at("1"), at("2"), at("3"), "--steps", "1..2"}, "--steps");
   expect_refused({at("1"), at("2"), at("3"), "--json", at("1")}, "1.json");
 }

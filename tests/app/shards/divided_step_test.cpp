@@ -179,7 +179,7 @@ TEST_F(DividedStep, WrongUsageIsRefused) {
   }
   const Process alone = run_noli(joined({"verify", "--divide"}, two));
   EXPECT_EQ(alone.exit_code, 3);
-  EXPECT_NE(alone.err.find("--divide: shares one step among processes"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("--divide: divides one step among processes"), std::string::npos) << alone.err;
 }
 
 TEST_F(DividedStep, SlowHasTheAnswerOfOneProcessForRealFrames) {

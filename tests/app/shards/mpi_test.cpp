@@ -63,7 +63,7 @@ TEST_F(InRanks, AContactEndsTheWaiting) {
   const FolderLock lock(run);
   const Process refused = job(2, asked_of_ranks({run}));
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("expected --follow"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("pass --follow"), std::string::npos) << refused.err;
   const Process all = job(3, asked_of_ranks({run, "--follow"}));
   EXPECT_EQ(all.exit_code, 1) << all.out << all.err;
   expect_same_answer(whole({run, "--follow"}), all);
@@ -126,10 +126,10 @@ TEST_F(InRanks, WrongUsageEndsTheJob) {
   EXPECT_EQ(job(2, {"verify", folder.path("none.ply"), folder.path("nor.ply")}).exit_code, 3);
   const Process join = job(2, {"check", "--join", folder.path("1.json")});
   EXPECT_EQ(join.exit_code, 3);
-  EXPECT_NE(join.err.find("--join: is for one process"), std::string::npos) << join.err;
+  EXPECT_NE(join.err.find("--join: runs in one process"), std::string::npos) << join.err;
   const Process other = job(2, {"info", write_motion(2)[0]});
   EXPECT_EQ(other.exit_code, 3);
-  EXPECT_NE(other.err.find("`noli info` is for one process"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("`noli info` runs in one process"), std::string::npos) << other.err;
 }
 
 /// One of the ranks is killed as soon as the first shard is there; the same command then does only what is missing.

@@ -403,11 +403,11 @@ TEST_F(Shards, AProofThatIsRefusedEarlyIsAFaultOfTheShards) {
 TEST_F(SpoiltShards, WhatIsNoFileIsRefused) {
   fs::remove(shard(2));
   fs::create_directory(shard(2));
-  expect_refused("task_000002.shard: is no regular file");
+  expect_refused("task_000002.shard: is not a regular file");
   EXPECT_EQ(part(frames_, "1/1").exit_code, 3);
   fs::remove(shards() + "/request.json");
   ASSERT_EQ(::mkfifo((shards() + "/request.json").c_str(), 0600), 0);
-  expect_refused("request.json: is no regular file");
+  expect_refused("request.json: is not a regular file");
 }
 
 TEST_F(SpoiltShards, AreNotOverwrittenByTheAnswer) {
