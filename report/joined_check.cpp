@@ -51,7 +51,7 @@ Part part_of(const Json& json, const std::string& name) {
   Part part;
   part.name = name;
   part.words = json.at("words").get<std::string>();
-  if (json.at("verdict") != "accepted") refuse(name, "is no acceptance: " + first_line(part.words));
+  if (json.at("verdict") != "accepted") refuse(name, "is not an acceptance: " + first_line(part.words));
   const Json& claim = json.at("claim");
   if (claim.is_object() && !claim.contains("part")) {
     refuse(name, "is about all steps of a proof; expected a part (--shard, --steps)");
@@ -111,7 +111,7 @@ void require_cover(const std::vector<Part>& parts) {
     }
     if (part.first < next || part.last < part.first) {
       refuse(part.name,
-             fmt::format("has the steps {} to {}, and so has another answer in part; expected each step once",
+             fmt::format("has the steps {} to {}, and another answer has some of them too; expected each step once",
                          part.first, part.last));
     }
     next = part.last + 1;
@@ -144,7 +144,7 @@ Checked joined_check(const std::vector<PartAnswer>& answers) {
            fmt::format("ends with step {}, and {} steps were asked for", parts.back().last, first.least_steps));
   }
   auto joined = joined_words(words, first.least_steps);
-  if (!joined) refuse(first.name, "does not fit together with the other answers: the checkers' words differ");
+  if (!joined) refuse(first.name, "does not fit the other answers: the checkers' words differ");
   notes.push_back(fmt::format("joined from the answers about {} part{}; nothing was checked again", parts.size(),
                               parts.size() == 1 ? "" : "s"));
   std::vector<std::string> asked = first.asked;

@@ -186,10 +186,9 @@ bool is_deep(const RepairOutcome& outcome) {
 }
 
 std::string repair_advice(const RepairRequest& request, const RepairOutcome& outcome) {
-  const std::string spread =
-      request.spread == 0 && is_deep(outcome)
-          ? "--spread 5 lets what contact moves take its surroundings along, and is often faster."
-          : "";
+  const std::string spread = request.spread == 0 && is_deep(outcome)
+                                 ? "--spread 5 also moves the surroundings of contacts, and is often faster."
+                                 : "";
   switch (outcome.end) {
     case RepairEnd::done:
       return outcome.verified->verdict == Verdict::undecided ? "noli verify decides the new frames." : spread;

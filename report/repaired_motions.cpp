@@ -24,10 +24,11 @@ std::vector<fs::path> files_of(const Json& list, const fs::path& path) {
   for (const Json& of : list) {
     files.emplace_back(of.at("file").get<std::string>());
     if (fs::exists(files.back())) continue;
-    throw InputError(path.string(), "",
-                     fmt::format("names {}, which is not there; expected to be called where noli repair was, with the "
-                                 "frames still in their places",
-                                 files.back().string()));
+    throw InputError(
+        path.string(), "",
+        fmt::format(
+            "names {}, which is missing; run this in the folder where noli repair ran, with the frames still in place",
+            files.back().string()));
   }
   return files;
 }

@@ -107,7 +107,7 @@ std::string gap_text(const RunExplanation& e) {
 }
 
 std::string contact_text(const RunExplanation& e) {
-  if (!e.log.has_contact && !e.deepest) return "Contact: the scene has no forces of it.\n";
+  if (!e.log.has_contact && !e.deepest) return "Contact: the scene has no contact forces.\n";
   if (!e.deepest) return "Contact: no layer acted.\n";
   const ActingMoment &deep = *e.deepest, &near = *e.nearest;
   std::string text = fmt::format("Deepest layer that acted: {}, between {}, at {} s (window {}).\n", deep.action.layer,
@@ -122,10 +122,11 @@ std::string bound_text(const RunExplanation& e) {
   if (!e.log.has_contact) return "";
   if (const auto bound = e.bound()) {
     return fmt::format(
-        "Certificates had at most {} layers active for a pair: none was nearer than the next, {} m thick at least.\n",
+        "Certificates had at most {} layers active for a pair: no pair was nearer than the next, at least {} m "
+        "thick.\n",
         e.log.deepest, digits17(*bound));
   }
-  return "The log does not tell of all windows, so it is not known how many layers were active.\n";
+  return "The log does not cover all windows, so it is not known how many layers were active.\n";
 }
 
 std::string cap_text(const RunExplanation& e) {
@@ -237,13 +238,13 @@ Json logged_certificates_json(const LogFacts& log) {
 
 std::string time_text(const RunExplanation& e) {
   std::string text = fmt::format("Time: {}.\n", phases_text(e.log.phases));
-  text += fmt::format("Verifying took {:.2f} s in all, beside the rest where there was more than one thread.\n",
+  text += fmt::format("Verifying took {:.2f} s in all, in parallel with the rest if there were several threads.\n",
                       e.log.verifying_seconds);
   if (e.log.parts_ended < e.log.parts) {
-    text += fmt::format("{} of {} part(s) of the run did not end by themselves; their time is not known.\n",
+    text += fmt::format("{} of {} part(s) of the run did not end normally; their time is not known.\n",
                         e.log.parts - e.log.parts_ended, e.log.parts);
   }
-  if (e.log.bad_lines > 0) text += fmt::format("{} line(s) of the log say nothing that is known.\n", e.log.bad_lines);
+  if (e.log.bad_lines > 0) text += fmt::format("{} line(s) of the log are of unknown kinds.\n", e.log.bad_lines);
   return text;
 }
 

@@ -97,9 +97,8 @@ std::string span(const SimulateOutcome& outcome) { return fmt::format("from 0 to
 std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
-      "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. The motion touches "
-      "nothing, and is not that of the scene: its steps are too long, also for damping, or kick in time (`noli "
-      "explain`).",
+      "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. Nothing touches, but the "
+      "motion is not that of the scene: its steps are too long, also for damping, or resonate (`noli explain`).",
       nothing_touches(outcome.not_compared, span(outcome)), energy.begin, energy.there, digits17(energy.time),
       energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
@@ -136,8 +135,8 @@ std::string end_text(const SimulateOutcome& outcome) {
           found.kind ? fmt::format("the {} of vertices {}", noli::name(*found.kind), fmt::join(found.force, ", "))
                      : "free motion";
       return fmt::format(
-          "Numbers run out in window {}: at {} s {} leaves vertex {} a velocity or position that is not "
-          "finite. The window is not part of the run.",
+          "Not finite in window {}: at {} s {} gives vertex {} a velocity or position that is not finite. The window "
+          "is not part of the run.",
           refused_window(outcome), digits17(found.time), force, found.vertex);
     }
     case RunEnd::unstable: return unstable_text(outcome);
@@ -202,8 +201,8 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
   switch (outcome.end) {
     case RunEnd::contact: return shown + " shows the motion up to there.";
     case RunEnd::unstable:
-    case RunEnd::not_finite: return fmt::format("noli explain {} tells which steps are too long.", scene);
-    case RunEnd::too_near: return fmt::format("noli explain {} tells how deep the layers went.", run);
+    case RunEnd::not_finite: return fmt::format("noli explain {} shows which steps are too long.", scene);
+    case RunEnd::too_near: return fmt::format("noli explain {} shows how deep the layers went.", run);
     case RunEnd::interrupted:
     case RunEnd::out_of_time:
     case RunEnd::out_of_memory:
@@ -213,7 +212,7 @@ std::string next_step(const SimulateRequest& request, const SimulateOutcome& out
                                          : "");
     case RunEnd::done:
       if (outcome.windows == 0) return "";
-      return fmt::format("{} shows the run; noli explain {} tells how it went.", shown, run);
+      return fmt::format("{} shows the run; noli explain {} says how it went.", shown, run);
   }
   return "";
 }

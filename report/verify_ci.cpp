@@ -64,7 +64,7 @@ std::string why_open(const VerifyRequest& request, const VerifyOutcome& outcome,
   if (is_near(outcome, k)) return "undecided: something is about as near as the least distance";
   const bool distance_open = request.min_distance > 0 && last && *last <= k;
   return distance_open
-             ? "nothing touches; not looked at for the least distance, which an earlier step breaks or may break"
+             ? "nothing touches; not checked for the least distance, which an earlier step breaks or may break"
              : "";
 }
 

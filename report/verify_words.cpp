@@ -35,10 +35,10 @@ std::string why_ended(const RunEnding& ending) {
   if (ending.being_written) return "it is being written";
   if (ending.going_on) return "it may still be going on, or was killed";
   if (!ending.why) return "its log does not say why";
-  if (*ending.why == "done") return "no more was asked for";
+  if (*ending.why == "done") return "no more was requested";
   if (*ending.why == "too_near") return "too near";
-  if (*ending.why == "not_finite") return "numbers ran out";
-  if (*ending.why == "unstable") return "no more was asked for; its energy drifts";
+  if (*ending.why == "not_finite") return "not finite";
+  if (*ending.why == "unstable") return "no more was requested; its energy drifts";
   if (*ending.why == "time_limit") return "time limit";
   if (*ending.why == "blocked") return "fixed vertices meet in the next step";
   if (*ending.why == "undecided") return "no way was found to repair the next step";
@@ -163,9 +163,9 @@ class Words {
 
   void remarks() {
     if (outcome_.largest_distance) {
-      line("The first frame allows {}, and not {}{}.", digits17(outcome_.largest_distance->allowed),
+      line("The first frame allows {} at most, not {}{}.", digits17(outcome_.largest_distance->allowed),
            digits17(outcome_.largest_distance->limit),
-           request_.ring == 1 ? " (neighbours by the mesh are near; see --min-distance-from-ring)" : "");
+           request_.ring == 1 ? " (neighbours in the mesh are near; see --min-distance-from-ring)" : "");
     }
     if (outcome_.claim.empty) {
       line("The claim is empty: fewer than two cells are compared, so nothing could touch (see --points, --ignore).");
@@ -219,7 +219,7 @@ class Words {
       if (outcome_.checked) detail("The checker says of the proof: {}.", *outcome_.checked);
       if (outcome_.not_checked) line("The proof was not checked: {}.", *outcome_.not_checked);
       if (touches && request_.open_proof && outcome_.witnesses == 0 && outcome_.complete)
-        line("No witness was found of which a checker could be convinced.");
+        line("No witness was found that would convince a checker.");
       return;
     }
     const std::string file = on_one_line(request_.proof->string());

@@ -76,7 +76,7 @@ class Finding:
 
 
 class Audit:
-    """How a function did. It is no bool: ask ``verdict``.
+    """How a function did. It is not a bool: ask ``verdict``.
 
     Attributes
     ----------

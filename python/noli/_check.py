@@ -17,7 +17,7 @@ from ._words import no_truth, progress_of
 
 
 class Checked:
-    """What a checker said. It is no bool: ask ``verdict``.
+    """What a checker said. It is not a bool: ask ``verdict``.
 
     Attributes
     ----------

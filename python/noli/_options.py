@@ -85,7 +85,7 @@ def require_new(file: Any, force: bool, inputs: Sequence[Any] = ()) -> None:
     if not force:
         raise UsageError(f"{os.fspath(file)} exists already; choose another name, or pass force=True")
     if os.path.islink(file) or not os.path.isfile(file):
-        raise UsageError(f"{os.fspath(file)}: is no plain file; choose another name")
+        raise UsageError(f"{os.fspath(file)}: is not a plain file; choose another name")
     if any(os.path.exists(name) and os.path.samefile(file, name) for name in inputs):
         raise UsageError(f"{os.fspath(file)}: is read; choose another name")
 

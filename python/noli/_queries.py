@@ -19,7 +19,7 @@ PLANAR = ("vertex_edge", "vertex_vertex")
 
 
 class Contacts:
-    """The answers to m queries. It is no bool, but has arrays of them.
+    """The answers to m queries. It is not a bool, but has arrays of them.
 
     Attributes
     ----------

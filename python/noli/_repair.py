@@ -37,7 +37,7 @@ from ._words import no_truth, progress_of
 
 
 class Repaired:
-    """Frames in which nothing touches, also between them. It is no bool: ask ``verdict``.
+    """Frames in which nothing touches, also between them. It is not a bool: ask ``verdict``.
 
     Attributes
     ----------

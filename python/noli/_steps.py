@@ -20,7 +20,7 @@ from ._words import KINDS, PAIRS, POINTS, no_truth
 
 
 class Impact:
-    """The first contact of a step. It is no bool: ask ``touches``.
+    """The first contact of a step. It is not a bool: ask ``touches``.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ def time_of_impact(
 
 
 class FreeStep:
-    """A part of a step that touches nothing. It is no bool: ask ``free``.
+    """A part of a step that touches nothing. It is not a bool: ask ``free``.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ def collision_free_step(
 
 
 class Intersections:
-    """Where a mesh at rest meets itself. It is no bool: ask ``count``.
+    """Where a mesh at rest meets itself. It is not a bool: ask ``count``.
 
     Attributes
     ----------

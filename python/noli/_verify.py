@@ -83,7 +83,7 @@ class FirstContact:
 
 
 class Result:
-    """What was found, and what it is about. It is no bool: ask ``verdict``.
+    """What was found, and what it is about. It is not a bool: ask ``verdict``.
 
     Attributes
     ----------

@@ -54,11 +54,11 @@ class ContactOf {
   ContactOf(std::filesystem::path path, Json result, std::shared_ptr<const GivenFrames> given, std::size_t number)
       : path_(std::move(path)), result_(std::move(result)), given_(std::move(given)) {
     if (result_.is_object() && result_.contains("meshes")) result_ = of_first_mesh_that_touches();
-    if (!is_of_verify(result_)) refuse("is no result of noli verify; expected what noli verify --json wrote");
+    if (!is_of_verify(result_)) refuse("is not a result of noli verify; expected what noli verify --json wrote");
     try {
       contact_ = parsed(chosen(number));
     } catch (const Json::exception& error) {
-      refuse(fmt::format("lists a contact that noli verify does not write so: {}", error.what()));
+      refuse(fmt::format("lists a contact in a form that noli verify does not write: {}", error.what()));
     }
   }
 
@@ -97,7 +97,7 @@ class ContactOf {
   const Json& chosen(std::size_t number) const {
     const Json& listed = result_.at("reports").at("contacts");
     if (number > listed.size()) {
-      refuse(fmt::format("lists {} contacts; expected a number up to that, found --contact {}", listed.size(), number));
+      refuse(fmt::format("lists {} contacts; expected at most this many, found --contact {}", listed.size(), number));
     }
     if (number > 0) return listed.at(number - 1);
     const Json& intersections = result_.at("initial_reports").at("intersections");
@@ -136,7 +136,7 @@ class ContactOf {
     if (k >= inputs.size()) refuse("names no input");
     const auto name = inputs.at(k).at("file").get<std::string>();
     if (name == "-")
-      refuse("is about standard input, which cannot be read again; verify with --trajectory, and that file");
+      refuse("is about standard input, which cannot be read again; verify with --trajectory, and use its file");
     return name;
   }
 
@@ -167,7 +167,7 @@ class ContactOf {
     if (!frames_) open();
     frames_->look_at(k);
     std::optional<Frame> frame = frames_->read(k);
-    if (!frame) refuse(fmt::format("has a contact in step {}, but there are not so many frames", contact_.step));
+    if (!frame) refuse(fmt::format("has a contact in step {}, but there are fewer frames", contact_.step));
     about.require_files(given_ ? frames_->take_facts() : frames_->facts());
     return std::move(*frame);
   }

@@ -19,7 +19,7 @@ namespace {
 /// The body fills the picture.
 void zoom_to(const std::string& name, const Json& bodies, View& view) {
   const auto body = std::ranges::find_if(bodies, [&](const Json& of) { return of.at("name") == name; });
-  if (body == bodies.end()) throw UsageError("--zoom " + name + ": the repair names no such body");
+  if (body == bodies.end()) throw UsageError("--zoom " + name + ": the repair has no such body");
   view.first = body->at("first_vertex").get<std::size_t>();
   view.count = body->at("vertices").get<std::size_t>();
 }
@@ -57,7 +57,7 @@ PictureOutcome repair_picture(const RepairPictureRequest& request) {
   try {
     return drawn(request, result);
   } catch (const Json::exception& error) {
-    throw InputError(request.result.string(), "", fmt::format("is no result of noli repair: {}", error.what()));
+    throw InputError(request.result.string(), "", fmt::format("is not a result of noli repair: {}", error.what()));
   }
 }
 

@@ -50,8 +50,8 @@ RunFrame run_frame_at(SeriesReader& reader, const std::filesystem::path& run, do
     if (nearest.is_passed(*window)) break;
   }
   if (nearest.found() && time >= 0 && time <= end) return nearest.best();
-  if (end == 0) throw InputError(run.string(), "", "has no windows; nothing of it can be shown");
-  throw InputError(run.string(), "", fmt::format("ends at {} s; expected a time up to that, found {} s", end, time));
+  if (end == 0) throw InputError(run.string(), "", "has no windows; there is nothing to show");
+  throw InputError(run.string(), "", fmt::format("ends at {} s; expected a time up to then, found {} s", end, time));
 }
 
 }  // namespace noli::report

@@ -79,7 +79,7 @@ class Repaired {
   }
 
   std::string words_of(const Json& step) const {
-    return fmt::format("Moved most from where it was given: vertex {} at the end of step {}, by {}.",
+    return fmt::format("Moved most from its given position: vertex {} at the end of step {}, by {}.",
                        step.at("vertex").get<std::uint64_t>(), step.at("step").get<std::uint64_t>(),
                        digits4(step.at("largest").get<double>()));
   }
@@ -93,7 +93,7 @@ class Repaired {
     }
     if (times.size() < 2) return;
     report_.page["plots"].push_back(
-        {{"title", "How far vertices end from where they were given, in steps that were changed"},
+        {{"title", "How far vertices end from their given positions, in steps that were changed"},
          {"x", "step"},
          {"y", "distance"},
          {"log", false},
@@ -117,8 +117,8 @@ class Repaired {
       packer.add(times[k], both);
     }
     std::string note =
-        "The new motion is solid, the given one is seen through; between its frames vertices move on straight lines.";
-    if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
+        "The new motion is solid, the given one is transparent; between its frames vertices move on straight lines.";
+    if (packer.stride() > 1) note += fmt::format(" One frame in {} is shown.", packer.stride());
     note += " Positions are rounded for the picture.";
     std::vector<double> ends;
     for (std::uint64_t step = 1; step <= count("steps"); ++step) ends.push_back(static_cast<double>(step));
@@ -179,7 +179,7 @@ void report_repair(const Json& result, const fs::path& path, const ReportLimits&
   try {
     Repaired(result, path, limits, report).put();
   } catch (const Json::exception& error) {
-    throw InputError(path.string(), "", fmt::format("is no result of noli repair: {}", error.what()));
+    throw InputError(path.string(), "", fmt::format("is not a result of noli repair: {}", error.what()));
   }
 }
 

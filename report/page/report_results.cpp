@@ -30,7 +30,7 @@ auto as_written(const std::filesystem::path& path, F&& f) {
   try {
     return f();
   } catch (const Json::exception& error) {
-    throw InputError(path.string(), "", fmt::format("is no result of noli verify: {}", error.what()));
+    throw InputError(path.string(), "", fmt::format("is not a result of noli verify: {}", error.what()));
   }
 }
 
@@ -75,13 +75,13 @@ class Verified {
   /// A whole number that is one in a browser too.
   std::uint64_t count(const Json& value, const std::string& what) const {
     if (value.is_number_unsigned() && value.get<std::uint64_t>() < most_digits) return value.get<std::uint64_t>();
-    refuse(fmt::format("is no result of noli verify: {} is {}; expected a whole number from 0", what, value.dump()));
+    refuse(fmt::format("is not a result of noli verify: {} is {}; expected a whole number from 0", what, value.dump()));
   }
 
   void require_steps() const {
     const VerifiedSteps of = verified_steps(result_, path_);
     const std::uint64_t steps = of.run || of.at_rest ? of.count : of.count - 1;
-    if (steps_ != steps) refuse(fmt::format("states something of {} steps, but has {}", steps, steps_));
+    if (steps_ != steps) refuse(fmt::format("makes statements about {} steps, but has {}", steps, steps_));
     if (looked_at_ > steps_) refuse(fmt::format("looked at {} of {} steps", looked_at_, steps_));
   }
 
@@ -116,7 +116,7 @@ class Verified {
 
   void require_feature(const Json& feature) const {
     const bool of_three = feature.is_array() && !feature.empty() && feature.size() <= 3;
-    if (!of_three) refuse("names a feature that has not one to three vertices");
+    if (!of_three) refuse("names a feature that does not have 1 to 3 vertices");
     for (const Json& v : feature) {
       const std::uint64_t number = count(v, "a vertex");
       if (!scene_ || number < scene_->at("vertices").get<std::uint64_t>()) continue;
@@ -306,10 +306,10 @@ class Verified {
   /// What is never folded, because it limits what the verdict says.
   std::vector<std::string> caveats() const {
     std::vector<std::string> lines;
-    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not all that was asked for was decided.");
+    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not everything that was asked for was decided.");
     if (settled() || result_.at("first").is_null()) return lines;
     lines.push_back(
-        fmt::format("What is said is of what was settled so far{}: there may be more contacts, and earlier ones.",
+        fmt::format("This covers only what was settled so far{}: there may be more contacts, and earlier ones.",
                     first_only() ? " (first contact only)" : ""));
     return lines;
   }
@@ -326,10 +326,10 @@ class Verified {
   void add_proof(std::vector<std::string>& lines) const {
     const Json proof = result_.value("proof", Json::object());
     if (const Json said = proof.value("checked", Json()); said.is_string()) {
-      lines.push_back(fmt::format("The checker of proofs said: {}.", said.get<std::string>()));
+      lines.push_back(fmt::format("The proof checker said: {}.", said.get<std::string>()));
     }
     if (const Json why = proof.value("not_checked", Json()); why.is_string()) {
-      lines.push_back(fmt::format("The checker of proofs was not asked: {}.", why.get<std::string>()));
+      lines.push_back(fmt::format("The proof checker was not asked: {}.", why.get<std::string>()));
     }
   }
 

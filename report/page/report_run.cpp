@@ -116,9 +116,9 @@ class Run {
     if (log_.last_end == "too_near") {
       return in_it + "a pair comes nearer than the scene's layers of contact allow" + named + ".";
     }
-    if (log_.last_end == "unstable") return "The energy drifts" + named + ". Steps are too long, or kick in time.";
+    if (log_.last_end == "unstable") return "The energy drifts" + named + ". Steps are too long, or resonate.";
     if (log_.last_end != "not_finite") return "";
-    return in_it + "numbers run out: a velocity or position is not finite. It is not in the run.";
+    return in_it + "a velocity or position is not finite. That window is not in the run.";
   }
 
   Json facts() const {
@@ -168,9 +168,9 @@ class Run {
   }
 
   ReportScene scene() const {
-    std::string note = full() ? fmt::format("Frames are samples of the motion, {} a second at most.", limits_.fps)
+    std::string note = full() ? fmt::format("Frames are samples of the motion, at most {} a second.", limits_.fps)
                               : "Frames are those that the run recorded.";
-    if (packer_.stride() > 1) note += fmt::format(" One of {} is shown.", packer_.stride());
+    if (packer_.stride() > 1) note += fmt::format(" One in {} is shown.", packer_.stride());
     note += " Straight lines between them are not the motion that was verified; positions are rounded for the picture.";
     return {static_cast<int>(reader_.header().dimension), reader_.mesh(), parts(), "s", begin_, ends_, note};
   }
@@ -222,7 +222,7 @@ void report_frames(FrameSource& frames, const ReportedFrames& how, const ReportL
   PackedFrames packed = packer.pack();
   std::string note = at_rest ? "Each frame was decided by itself, at rest."
                              : "Between these frames every vertex moves on a straight line: that motion was decided.";
-  if (packer.stride() > 1) note += fmt::format(" One frame of {} is shown.", packer.stride());
+  if (packer.stride() > 1) note += fmt::format(" One frame in {} is shown.", packer.stride());
   note += " Positions are rounded for the picture.";
   const bool flat = how.flat || packed.least[2] == packed.greatest[2];
   put_scene({flat ? 2 : 3,

@@ -84,7 +84,7 @@ TEST_F(ContactExport, RefusesResultsWithoutContact) {
       {"verify", folder.write("a.ply", two_triangles(1)), folder.write("b.ply", two_triangles(2)), "--json", path});
   expect_refused(export_to("hits.vtu"), "lists no contact");
   folder.write("result.json", "{}");
-  expect_refused(export_to("hits.vtu"), "is no result of noli verify");
+  expect_refused(export_to("hits.vtu"), "is not a result of noli verify");
 }
 
 /// "... t = 0.5, 2 cells marked"

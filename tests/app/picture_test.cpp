@@ -228,7 +228,7 @@ TEST_F(ExportPicture, BadInputIsNamed) {
     EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
   };
   expect_refused({"--at", "3", "-o", run_path("p.png")}, "ends at 0.25 s");
-  expect_refused({"--at", "-1", "-o", run_path("p.png")}, "expected a time up to that");
+  expect_refused({"--at", "-1", "-o", run_path("p.png")}, "expected a time up to then");
   expect_refused({"--at", "0.1", "-o", run_path("p.jpg")}, ".png");
   expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");

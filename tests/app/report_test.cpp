@@ -316,7 +316,7 @@ TEST_F(Report, PassesOnWhatAContactHas) {
     EXPECT_EQ(contacts["listed"][0][key], value);
     Json wrong = result;
     wrong["reports"]["contacts"][0][key] = Json::object();
-    write({folder.write("wrong.json", wrong.dump())}, 3, "is no result of noli verify");
+    write({folder.write("wrong.json", wrong.dump())}, 3, "is not a result of noli verify");
   }
 }
 
@@ -435,7 +435,7 @@ TEST_F(Report, RefusesAResultThatIsNoneOfVerify) {
   };
   refuse("/reports/contacts/0/features", Json::parse("[[3]]"), "not of two features");
   refuse("/reports/contacts/0/features", Json::parse("[[3], [0], [1]]"), "not of two features");
-  refuse("/reports/contacts/0/features", Json::parse("[[3], []]"), "one to three vertices");
+  refuse("/reports/contacts/0/features", Json::parse("[[3], []]"), "1 to 3 vertices");
   refuse("/reports/contacts/0/features", Json::parse("[[3], [0, 1, -2]]"), "expected a whole number from 0");
   refuse("/reports/contacts/0/step", 0, "in step 0 of 1");
   refuse("/reports/contacts/0/step", 2, "in step 2 of 1");
@@ -444,7 +444,7 @@ TEST_F(Report, RefusesAResultThatIsNoneOfVerify) {
   refuse("/contacts/vertex_face", 0, "lists 1 contacts, but counts 0");
   refuse("/initial_intersections", -1, "expected a whole number from 0");
   refuse("/steps", 2, "looked at 2 of 1 steps");
-  refuse("/steps_total", 2, "states something of 1 steps, but has 2");
+  refuse("/steps_total", 2, "makes statements about 1 steps, but has 2");
   refuse("/verdict", "proved", "says proved, but counts 1 contacts");
   write({folder.write("same.json", result.dump())});
 }
@@ -490,7 +490,7 @@ TEST_F(Report, RefusesWhatDoesNotFit) {
   other["reports"]["contacts"][0]["features"][0][0] = 4;
   write({folder.write("other.json", other.dump()), frames[0], frames[1]}, 3, "names vertex 4, but the mesh");
   other["reports"]["contacts"][0].erase("step");
-  write({folder.write("damaged.json", other.dump())}, 3, "is no result of noli verify");
+  write({folder.write("damaged.json", other.dump())}, 3, "is not a result of noli verify");
 }
 
 TEST_F(Report, ReplacesNothingUnasked) {

@@ -75,7 +75,7 @@ TEST_F(ForIntegration, JunitPassesNoStepWhoseDistanceWasNotLookedAt) {
   EXPECT_NE(xml.find("tests=\"4\" failures=\"2\" errors=\"0\" skipped=\"1\""), std::string::npos) << xml;
   EXPECT_EQ(count(xml, "<failure type=\"too_near\""), 1U);
   EXPECT_EQ(count(xml, "<failure type=\"contact\""), 1U);
-  EXPECT_NE(xml.find("<skipped message=\"nothing touches; not looked at for the least distance"), std::string::npos);
+  EXPECT_NE(xml.find("<skipped message=\"nothing touches; not checked for the least distance"), std::string::npos);
 }
 
 TEST_F(ForIntegration, JunitFailsWhereContactGoesOn) {

@@ -84,7 +84,7 @@ class Repair(TestCase):
             self.skipTest(str(error))
         page = (self.folder / "page.html").read_text(encoding="utf-8")
         self.assertIn("two sheets", page)
-        self.assertIn("How far vertices end from where they were given", page)
+        self.assertIn("How far vertices end from their given positions", page)
         self.assertIn("<iframe", found._repr_html_())
         with self.assertRaisesRegex(noli.UsageError, "exists already"):
             found.report(self.folder / "page.html")

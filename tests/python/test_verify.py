@@ -410,7 +410,7 @@ class BadInput(TestCase):
         folder.mkdir()
         link.symlink_to(self.folder / "target")
         for place in (folder, link, device):
-            self.refused("no plain file", self.V, self.F, proof=place, force=True, error=noli.UsageError)
+            self.refused("not a plain file", self.V, self.F, proof=place, force=True, error=noli.UsageError)
         self.assertTrue(folder.is_dir() and link.is_symlink() and not os.path.isfile(device))
         file = self.folder / "V.npz"
         np.savez(file, vertices=self.V, faces=self.F)

@@ -53,7 +53,7 @@ look rest '{"word": "contact", "tone": "bad", "frames": 6, "meets": 0.005, "show
 "$noli" repair "$out"/frames/*.ply -o "$out/mended/%03d.ply" --no-check --json "$out/mended.json" >/dev/null
 "$noli" report "$out/mended.json" -o "$out/mended.html"
 look mended '{"word": "no contact", "tone": "good", "frames": 6, "plots": 1, "folds": ["restitution"],
-  "shows": ["Moved most from where it was given", "The new motion is solid", "A motion, mended", "Steps that were changed", "moved by at most"]}'
+  "shows": ["Moved most from its given position", "The new motion is solid", "A motion, mended", "Steps that were changed", "moved by at most"]}'
 
 # A verdict with 100,000 contacts: it opens as fast as one without.
 mkdir "$out/many_frames"

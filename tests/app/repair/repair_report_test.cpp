@@ -67,7 +67,7 @@ TEST_F(RepairReport, RefusesOtherFiles) {
   folder.write("out/001.ply", two_triangles(0.375));
   refuses("is about other frames: frame 2 was");
   fs::remove(out(1));
-  refuses("001.ply, which is not there");
+  refuses("001.ply, which is missing");
   folder.write("out/001.ply", repaired);
   EXPECT_EQ(report().exit_code, 0);
 }
@@ -82,7 +82,7 @@ TEST_F(RepairReport, RefusesWhatDoesNotFit) {
   refuses("has no SHA-256 of frame 2");
   result.erase("outputs");
   folder.write("mended.json", result.dump());
-  refuses("is no result of noli repair");
+  refuses("is not a result of noli repair");
 }
 
 TEST_F(RepairReport, OfARepairThatCannotBe) {
@@ -139,7 +139,7 @@ TEST_F(RepairReport, PicturesShowTheMotionBeforeAndAfter) {
   refused({"--at", "4.5"}, "is about the times from 0 to 4 steps");
   refused({"--at", "-1"}, "is about the times from 0 to 4 steps");
   refused({}, "expected --at TIME");
-  refused({"--at", "1", "--zoom", "hat"}, "names no such body");
+  refused({"--at", "1", "--zoom", "hat"}, "has no such body");
   refused({"--at", "1", "--from", "0,0,0"}, "--from");
 }
 #endif

@@ -135,7 +135,7 @@ TEST_F(Simulate, ExplainOfARunWithoutContact) {
   EXPECT_GT(json["events"]["membrane"], 0);
   EXPECT_GT(json["smallest_step"], 0);
   const Process text = run_noli({"explain", run_path("run")});
-  EXPECT_NE(text.out.find("the scene has no forces of it"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("the scene has no contact forces"), std::string::npos) << text.out;
 }
 
 TEST_F(Simulate, ExplainDoesWithoutALog) {

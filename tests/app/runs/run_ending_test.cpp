@@ -37,7 +37,7 @@ TEST_F(Simulate, VerifySaysNothingOfTheEndOfAWholeRun) {
 TEST_F(Simulate, VerifySaysThatNoMoreOfARunWasAskedFor) {
   const std::string file = scene(hanging_sheet());
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--until", "0.1"}).exit_code, 0);
-  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.1 s of 0.25 s (no more was asked for)."));
+  EXPECT_TRUE(says(run_path("run"), "The run ends at 0.1 s of 0.25 s (no more was requested)."));
   ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("run"), "--resume"}).exit_code, 0);
   EXPECT_FALSE(speaks_of_an_end(run_path("run")));
 }

@@ -90,8 +90,7 @@ TEST_F(Simulate, NumbersRunOutInAWindowThatIsNamed) {
   ASSERT_EQ(blown["verdict"], "not_finite");
   EXPECT_EQ(blown["not_finite"]["window"].get<std::uint64_t>(), blown["windows"].get<std::uint64_t>() + 1);
   const Process told = run_noli({"simulate", scene(json), "-o", run_path("run"), "--force"});
-  EXPECT_TRUE(contains(told.out, "Numbers run out in window " + blown["not_finite"]["window"].dump() + ":"))
-      << told.out;
+  EXPECT_TRUE(contains(told.out, "Not finite in window " + blown["not_finite"]["window"].dump() + ":")) << told.out;
 }
 
 TEST_F(Simulate, VerifyKnowsHowManyWindowsTheSceneAsksFor) {

@@ -193,11 +193,12 @@ TEST_F(JoinedAnswers, AreAcceptedPartsAsCheckersSayThem) {
   ASSERT_EQ(check({"--json", folder.path("whole.json")}).exit_code, 0);
   expect_refused({at("whole")}, "is about all steps of a proof");
   ASSERT_EQ(check({"--steps", "1..9", "--json", folder.path("less.json")}).exit_code, 3);
-  expect_refused({at("less")}, "is no acceptance: rejected");
+  expect_refused({at("less")}, "is not an acceptance: rejected");
   const auto refused = [&](const std::string& why, const std::function<void(Json&)>& change) {
     expect_refused({at("1"), changed("2", change), at("3")}, why);
   };
-  refused("is no acceptance: refuted", [](Json& json) { json["verdict"] = "refuted", json["words"] = "refuted: no"; });
+  refused("is not an acceptance: refuted",
+          [](Json& json) { json["verdict"] = "refuted", json["words"] = "refuted: no"; });
   refused("is not what noli check --json writes", [](Json& json) { json["schema"] = "noli-verify"; });
   refused("is not what noli check --json writes", [](Json& json) { json["version"] = 2; });
   refused("is not what noli check --json writes", [](Json& json) { json.erase("words"); });
@@ -206,8 +207,9 @@ TEST_F(JoinedAnswers, AreAcceptedPartsAsCheckersSayThem) {
   refused("is not what noli check --json writes", [](Json& json) { json["claim"]["part"]["last"] = -1; });
   refused("is not what noli check --json writes", [](Json& json) { json["asked"]["distance"] = 5; });
   refused("is not what noli check --json writes", [](Json& json) { json["notes"] = 5; });
-  refused("does not fit together", [](Json& json) { json["words"] = json["words"].get<std::string>() + "more\n"; });
-  refused("does not fit together", [](Json& json) { json["words"] = "accepted: nothing touches"; });
+  refused("does not fit the other answers",
+          [](Json& json) { json["words"] = json["words"].get<std::string>() + "more\n"; });
+  refused("does not fit the other answers", [](Json& json) { json["words"] = "accepted: nothing touches"; });
   expect_refused({at("1"), folder.write("no.json", "{")}, "no.json");
   expect_refused({at("1"), folder.path("none.json")}, "none.json");
   expect_refused({at("1"), at("2"), at("3"), "--verified"}, "takes only files of answers");
