@@ -140,7 +140,7 @@ void legend(Svg& svg, const AuditOutcome& outcome, Colours& colours) {
   line += step;
   add(Times::early, "#999999", "no time of impact is late");
   add(Times::late, "#999999", "some are late");
-  add(Times::none, "#999999", "tells no times");
+  add(Times::none, "#999999", "gives no times");
 }
 
 void draw(Svg& svg, const AuditOutcome& outcome, const Quantity& quantity, const LogScale& x, double over,

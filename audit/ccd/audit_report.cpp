@@ -191,14 +191,14 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
     if (file.counts.leaks > 0) {
       fmt::format_to(out, "{}: leak: {:.1f} bytes a query\n", place, file.growth_per_query);
     }
-    if (!file.complete) fmt::format_to(out, "{}: not all was asked\n", place);
+    if (!file.complete) fmt::format_to(out, "{}: not every query was asked\n", place);
   }
 }
 
 /// Below the tables.
 constexpr const char* columns_explained =
     "  false-  no hit, but the features meet: a missed contact    false+  a hit, but they stay apart\n"
-    "  late    the time is after the first contact: how often, and at worst by which part of the step\n"
+    "  late    the time is after the first contact: how often, and by which part of the step at worst\n"
     "  early-  by which part of the step times before the first contact are early: median, worst\n"
     "  bad-times  outside [0, 1], or none    changed  another answer when the same query is asked again\n"
     "  x-textbook  time per query as a multiple of the textbook cubic solver's, in this run\n";

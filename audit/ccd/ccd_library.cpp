@@ -134,7 +134,7 @@ class Asking {
 
   void lose(std::size_t i, GivenAnswer& answer) {
     answer.state = AnswerState::crashed;
-    result_.endings[i] = "it was asked, and there is no answer: the library writes to memory that is not its own";
+    result_.endings[i] = "it was asked, but there is no answer: the library writes to memory that is not its own";
     ++result_.crashes;
   }
 

@@ -47,18 +47,18 @@ void require_shared_library(const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& problem) { throw InputError(file.string(), "", problem); };
   std::error_code error;
   if (!std::filesystem::exists(file, error)) refuse("does not exist; expected a shared library");
-  if (!std::filesystem::is_regular_file(file, error)) refuse("is no file; expected a shared library");
+  if (!std::filesystem::is_regular_file(file, error)) refuse("is not a file; expected a shared library");
   if (!std::ifstream(file, std::ios::binary)) refuse("cannot be read");
   std::optional<Head> head = head_of(file);
   const std::optional<Head> own = head_of("/proc/self/exe");
-  if (!head) refuse("is not a shared library (it does not begin as an ELF file does)");
+  if (!head) refuse("is not a shared library (it does not begin like an ELF file)");
   if (!own) return;
   swap_if_foreign(*head, *own);
   if (described(*head) != described(*own)) {
     refuse(fmt::format("is for another machine (ELF: {}; expected {})", described(*head), described(*own)));
   }
   if (head->type != ET_DYN)
-    refuse(fmt::format("is an ELF file, but no shared library (type {}; expected 3)", head->type));
+    refuse(fmt::format("is an ELF file, but not a shared library (type {}; expected 3)", head->type));
 }
 
 }  // namespace noli::audit

@@ -43,8 +43,7 @@ bool has_sandbox(const fs::path& host) {
 }
 
 [[noreturn]] void throw_no_sandbox() {
-  throw InputError("--sandbox", "",
-                   "this machine filters no calls of the system (seccomp); expected a Linux that does");
+  throw InputError("--sandbox", "", "this machine cannot filter system calls (seccomp); expected a Linux that can");
 }
 
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
@@ -102,7 +101,7 @@ Ending HostProcess::wait() {
     if (child_.has_ended()) return ending();
     if (options_.over()) return ended_by_us(Ending::Kind::stopped, "stopped");
     if (hangs())
-      return ended_by_us(Ending::Kind::hung, fmt::format("no answer within its limit of {:g} s", seconds(limit())));
+      return ended_by_us(Ending::Kind::hung, fmt::format("no answer within the limit of {:g} s", seconds(limit())));
     if (child_.resident_bytes() > options_.most_memory) {
       return ended_by_us(Ending::Kind::too_much_memory, fmt::format("more than {} bytes", options_.most_memory));
     }

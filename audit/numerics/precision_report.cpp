@@ -67,13 +67,13 @@ std::string order_text(const PrecisionOutcome& outcome) {
   if (!time) return "Order of events: the same.\n";
   const auto& acts = outcome.runs.back().changes.acts.first;
   if (acts && acts->time == *time) {
-    return fmt::format("Order of events: another from {} s on, when layer {} acts between vertices {} in {} only.\n",
+    return fmt::format("Order of events: differs from {} s on, when layer {} acts between vertices {} in {} only.\n",
                        three_digits(*time), acts->layer, vertices_text(acts->pair),
                        acts->acts_in_double ? "double" : fmt::format("{} bits", outcome.runs.back().arithmetic.bits));
   }
   return fmt::format(
-      "Order of events: another from {} s on, where {} comes before {}, which double has at one time and the other way "
-      "round.\n",
+      "Order of events: differs from {} s on, where {} comes before {}; double has both at one time, in the opposite "
+      "order.\n",
       three_digits(*time), outcome.tie->first, outcome.tie->second);
 }
 

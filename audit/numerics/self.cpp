@@ -150,7 +150,7 @@ class SelfAudit {
     const auto found = json.find(key);
     const std::uint64_t number = found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
     if (number == 0) {
-      fail(p, fmt::format("it says that all is well, of no {}", key));
+      fail(p, fmt::format("it says that all is well, but counts no {}", key));
       return false;
     }
     p.figures[key] = number;
@@ -163,7 +163,7 @@ class SelfAudit {
     if (run.exited_with(0) && passed) return hold(p);
     if (!run.exited_with(0)) return fail(p, told(run));
     const std::size_t at = run.out.find("rounding");
-    fail(p, at == std::string::npos ? "--version says nothing of it" : on_one_line(first_line(run.out.substr(at))));
+    fail(p, at == std::string::npos ? "--version does not mention it" : on_one_line(first_line(run.out.substr(at))));
   }
 
   void labels(SelfPart& p) const {
@@ -209,7 +209,7 @@ class SelfAudit {
     const bool there = ::access((options_.program.parent_path() / checker.name).c_str(), X_OK) == 0;
     if (there) return present_.push_back(checker);
     part("proofs", checker.name, [&](SelfPart& p) {
-      const std::string words = std::string(checker.name) + " is not beside noli";
+      const std::string words = std::string(checker.name) + " was not found beside noli";
       if (*checker.option == '\0') return fail(p, words);
       skip(p, words + ": it is built where there is Coq");
     });
@@ -287,7 +287,7 @@ class SelfAudit {
   void shipped_scene(const fs::path& file, SelfPart& p) const {
     p.by_clock = true;
     Json scene = Json::parse(bytes_of(file), nullptr, false);
-    if (!scene.is_object()) return fail(p, "is no JSON");
+    if (!scene.is_object()) return fail(p, "is not JSON");
     scene["record"] = "full";
     const ScratchFolder scratch;
     write_file(scratch.path() / "scene.json", scene.dump());

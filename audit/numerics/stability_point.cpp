@@ -225,8 +225,8 @@ class Asking {
     if (begin > 0) point_.energy_error = worst / begin;
     const bool stays = begin > 0 && *point_.energy_error <= most_energy_error;
     const std::string words =
-        begin > 0 ? fmt::format("it was {:.3g} J, and drifts by {:.2g} of that", begin, *point_.energy_error)
-                  : fmt::format("it was {:.3g} J, and drifts by {:.2g} J", begin, worst);
+        begin > 0 ? fmt::format("it was {:.3g} J, and drifted by {:.2g} of that", begin, *point_.energy_error)
+                  : fmt::format("it was {:.3g} J, and drifted by {:.2g} J", begin, worst);
     if (said) return gives("energy", words);
     if (!stays) broken("energy", words);
   }
@@ -255,12 +255,12 @@ class Asking {
     const ProgramEnd rest = simulate("resumed", {"--resume"});
     if (!ended_well(rest)) return;
     if (half.code != 0 || rest.code != 0) {
-      return broken("resume", fmt::format("exit {} half way, then {}", half.code, rest.code));
+      return broken("resume", fmt::format("exit {} halfway, then {}", half.code, rest.code));
     }
     for (const char* file : {"trajectory.blocks", "proof.blocks"}) {
       const std::string whole = bytes_of(folder_ / "run" / file);
       if (whole.empty() || whole != bytes_of(folder_ / "resumed" / file)) {
-        return broken("resume", fmt::format("{} has other bytes", file));
+        return broken("resume", fmt::format("{} has different bytes", file));
       }
     }
   }

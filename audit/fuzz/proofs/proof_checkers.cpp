@@ -42,7 +42,7 @@ void require_nothing_else(const fs::path& folder, const ProofFiles& files) {
     const std::string other = trajectory_name(files, gap ? files.files.size() : *number);
     throw InputError(folder.string(), "",
                      gap ? fmt::format("has {}, but no {}", name, other)
-                         : fmt::format("has {} beside {}; expected one of them", name, other));
+                         : fmt::format("has both {} and {}; expected one of them", name, other));
   }
 }
 
@@ -110,7 +110,7 @@ class HostedChecker : public ProofChecker {
 
   /// How it ended.
   std::string last_words() {
-    if (!host_->silent()) return "no answer within its limit of time";
+    if (!host_->silent()) return "no answer within the time limit";
     const ProgramEnd end = host_->finish(limits_);
     return end.kind == ProgramEnd::Kind::exited ? fmt::format("its host ended with code {}", end.code) : end.words();
   }

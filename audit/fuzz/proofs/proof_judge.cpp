@@ -46,7 +46,7 @@ std::optional<bool> claim_is_true(const ProofCase& from, const ProofMutant& muta
   if (!possible) throw InputError("mutant", "", "makes no claim that could be true");
   const FrameMotion motion = read_trajectory(from.extension, mutant.files ? *mutant.files : from.files, whole);
   const auto claimed = claimed_mesh(*claim, motion.mesh);
-  if (!claimed) throw InputError("mutant", "", "merges a vertex that is not there");
+  if (!claimed) throw InputError("mutant", "", "merges a vertex that does not exist");
   if (motion.frames.size() < (claim->source == 1 ? 1 : 2)) throw InputError("mutant", "", "is about no step");
   return claim_holds(*claim, *claimed, motion.frames);
 }
@@ -141,7 +141,7 @@ std::string shape_of(const ProofJudgement& judgement) {
   if (judgement.plain.code == 3) return without_numbers(judgement.plain.words);
   const char* const claim = judgement.judged  ? "a changed claim"
                             : judgement.truth ? "the claim as it was"
-                                              : "a claim that is not judged";
+                                              : "a claim that was not judged";
   return fmt::format("{}: {}", word_of(judgement.plain), claim);
 }
 

@@ -55,7 +55,7 @@ void require_that_the_oracle_agrees(const AnyQuery& query) {
   const bool same =
       !exact ? truth.kind == ContactKind::apart : truth.kind == exact->kind && truth.time->lower() == exact->time;
   if (same) return;
-  throw std::logic_error("kernel and oracle disagree on a query that a library was found wrong on");
+  throw std::logic_error("kernel and oracle disagree on a query that a library got wrong");
 }
 
 class LibraryFuzzing

@@ -73,7 +73,7 @@ std::vector<SavedQuery> read_saved_queries(const std::filesystem::path& file) {
   const bool fitting = !type || *type == QueryType{query.pair, query.dimension};
   if (!fitting) throw InputError(file.string(), "", "its name, its line query and its line noli-fuzz do not agree");
   if (saved && !fits(query, saved->probe)) {
-    throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind has not");
+    throw InputError(file.string(), "", "the line noli-fuzz asks for what a query of this kind does not have");
   }
   std::vector<SavedQuery> result;
   for (const QueryRecord& record : parse_query_csv(text, file.string(), *kind)) {

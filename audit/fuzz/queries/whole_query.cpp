@@ -83,7 +83,7 @@ void shear_and_turn(std::span<Whole* const> points, int dimension, Random& rando
 }
 
 double as_double(std::int64_t x, int exponent) {
-  if (std::abs(x) > (std::int64_t{1} << 53)) throw std::logic_error("a generated coordinate is no double");
+  if (std::abs(x) > (std::int64_t{1} << 53)) throw std::logic_error("a generated coordinate is not a double");
   return std::ldexp(static_cast<double>(x), exponent);
 }
 

@@ -99,7 +99,7 @@ class SceneJudge {
   }
 
   void require_refusal(const ProgramEnd& end) {
-    if (end.code != 3) return found(fmt::format("accepted: {} is wrong, and yet {}", *scene_.wrong_place, end.words()));
+    if (end.code != 3) return found(fmt::format("accepted: {} is wrong, but {}", *scene_.wrong_place, end.words()));
     if (!names_place(end.err, *scene_.wrong_place)) {
       found(fmt::format("message: does not name {}: {}", *scene_.wrong_place, first_complaint(end.err)));
     }
@@ -143,7 +143,7 @@ class SceneJudge {
       const fs::path a = folder_ / "run" / name, b = folder_ / "again" / name;
       if (fs::exists(a) != fs::exists(b)) return found(fmt::format("resume: one of the two runs has no {}", name));
       if (fs::exists(a) && read_whole_file(a) != read_whole_file(b)) {
-        return found(fmt::format("resume: other bytes in {} after an interruption at {:.17g} s", name, until));
+        return found(fmt::format("resume: different bytes in {} after an interruption at {:.17g} s", name, until));
       }
     }
   }

@@ -54,7 +54,7 @@ void require_no_more(const fs::path& folder, const fs::path& missing) {
       throw InputError(folder.string(), "", fmt::format("has {}, but no {}", name, missing.filename().string()));
     if (entry.path().extension() == missing.extension()) continue;
     const std::string read = fs::path(name).replace_extension(missing.extension()).string();
-    throw InputError(folder.string(), "", fmt::format("has {} beside {}; expected one of them", name, read));
+    throw InputError(folder.string(), "", fmt::format("has both {} and {}; expected one of them", name, read));
   }
 }
 
@@ -123,9 +123,9 @@ std::string text_fault(const FrameMotion& motion) {
     const std::string file = file_name(frame, motion.format);
     try {
       const Frame again = parse_frame(file_bytes(motion, frame), file);
-      if (again.mesh != motion.mesh) return fmt::format("{}: the mesh is another one when it is read again", file);
+      if (again.mesh != motion.mesh) return fmt::format("{}: the mesh is different when it is read again", file);
       if (!same_bits(again.positions, motion.frames[frame])) {
-        return fmt::format("{}: positions have other bits when they are read again", file);
+        return fmt::format("{}: positions have different bits when they are read again", file);
       }
     } catch (const std::exception& error) {
       return fmt::format("{}: cannot be read again: {}", file, error.what());

@@ -47,8 +47,7 @@ void require_that_the_oracle_agrees(const FrameMotion& motion, std::size_t step,
   for (std::size_t i = 0; i < 4; ++i) features[i < first ? 0 : 1].push_back(v[i]);
   const auto time = first_within(3, motion.begin(step), motion.end(step), features, 0);
   if (time.has_value() == finding.exact.has_value() && (!time || time->lower() == *finding.exact)) return;
-  throw std::logic_error("kernel and oracle disagree on a pair that a library was found wrong on: " +
-                         words(finding.contact));
+  throw std::logic_error("kernel and oracle disagree on a pair that a library got wrong: " + words(finding.contact));
 }
 
 void require_what_was_planted(const FrameMotion& motion, const PlantedTruth& planted, std::size_t step,
@@ -73,7 +72,7 @@ class StepJudge {
     if (const auto ended = fault_of_end(audit_.ending.kind)) {
       const std::string place = audit_.in_search ? ", in the search for candidates"
                                 : audit_.asked   ? where(audit_.asked)
-                                                 : ", nobody knows where";
+                                                 : ", at an unknown place";
       return found(*ended, audit_.ending.words + place);
     }
     if (!audit_.searched) return found(MotionFault::failure, "the search for candidates failed");
@@ -81,7 +80,7 @@ class StepJudge {
     if (audit_.failures > 0) return found(MotionFault::failure, "the query failed" + where(audit_.failed));
     if (audit_.bad_pairs > 0) {
       return found(MotionFault::bad_pair,
-                   fmt::format("{} candidates are no two features without a common vertex", audit_.bad_pairs));
+                   fmt::format("{} candidates are not two features without a common vertex", audit_.bad_pairs));
     }
     if (audit_.leaks) return found(MotionFault::leak, "memory grows whenever the step is asked again");
     return std::nullopt;

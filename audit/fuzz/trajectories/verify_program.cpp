@@ -108,7 +108,7 @@ MotionAnswer VerifyProgram::operator()(const FrameMotion& motion) {
     read_answer(said, answer);
     answer.shape = shape_of(said);
   } catch (const Json::exception& error) {
-    answer.failure = fmt::format("noli verify: its JSON is not as it has to be: {}", error.what());
+    answer.failure = fmt::format("noli verify: its JSON is not as required: {}", error.what());
     return answer;
   }
   if (!answer.has_proof) return answer;

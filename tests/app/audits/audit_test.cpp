@@ -222,7 +222,7 @@ TEST_F(AuditCcd, RefusesWhatIsNoSuchLibrary) {
   refused(faulty("has_another_version"), "is for version 2 of the interface; expected 1");
   refused(faulty("crashes_when_loaded"), "cannot be loaded: ");
   refused(folder.path("absent.so"), "does not exist");
-  refused(folder.path("."), "is no file");
+  refused(folder.path("."), "is not a file");
   refused(folder.write("text.so", "int noli_ccd_query();\n"), "is not a shared library");
   refused(folder.write("empty.so", ""), "is not a shared library");
   refused(NOLI_COMMAND, "cannot be loaded: ");
@@ -249,7 +249,7 @@ TEST_F(AuditCcd, SaysForWhichMachineALibraryIs) {
   own.read(head.data(), 64);
   refused(folder.write("torn.so", head), "cannot be loaded: ");
   head[16] = 1;
-  refused(folder.write("object.so", head), "no shared library (type 1; expected 3)");
+  refused(folder.write("object.so", head), "not a shared library (type 1; expected 3)");
 }
 
 TEST_F(AuditCcd, RefusesOtherQueries) {
