@@ -25,7 +25,7 @@ class GroupsReader {
     const Json json = integrator::parse_json(text(), file_);
     require(json.is_object(), "", "expected an object with \"groups\" and \"ignore\"");
     for (const auto& [key, value] : json.items()) {
-      require(key == "groups" || key == "ignore", "/" + key, "expected \"groups\" and \"ignore\" alone");
+      require(key == "groups" || key == "ignore", "/" + key, "expected only \"groups\" and \"ignore\"");
     }
     const bool groups = json.contains("groups");
     require(groups ? json["groups"].is_object() : bodies_.known(), "/groups", "expected an object: names and vertices");
@@ -40,7 +40,7 @@ class GroupsReader {
     }
     for (std::size_t i = 0; i < json["ignore"].size(); ++i) pair(json["ignore"][i], fmt::format("/ignore/{}", i));
     auto& pairs = groups_.exclusions.pairs;
-    require(!pairs.empty(), "/ignore", "expected a pair of groups at least");
+    require(!pairs.empty(), "/ignore", "expected at least one pair of groups");
     std::ranges::sort(pairs);
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return std::move(groups_);
@@ -128,7 +128,7 @@ void require_whole_cells(const std::filesystem::path& file, const Groups& groups
     for (int i = 1; i < corner_count(mesh, c); ++i) {
       if (group(i) == group(0)) continue;
       throw InputError(file.string(), "",
-                       fmt::format("vertices {} and {} of cell {} are of two groups; expected one", vertices[0],
+                       fmt::format("vertices {} and {} of cell {} are in two groups; expected one", vertices[0],
                                    vertices[static_cast<std::size_t>(i)], c));
     }
   }

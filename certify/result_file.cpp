@@ -142,14 +142,14 @@ void require_writable_file(const std::filesystem::path& file, const std::string&
   }
   if (can_write(file.string())) return;
   throw UsageError(option + " " + file.string() + ": cannot be written: " + reason() +
-                   "; expected a file in a folder that is there and may be written to");
+                   "; expected a file in an existing, writable folder");
 }
 
 void require_program(const std::filesystem::path& program, const std::string& option) {
   std::error_code error;
   const bool file = std::filesystem::is_regular_file(program, error);
   if (!file || ::access(program.c_str(), X_OK) != 0) {
-    throw UsageError(option + " " + program.string() + (file ? ": is not executable" : ": is no file that is there") +
+    throw UsageError(option + " " + program.string() + (file ? ": is not executable" : ": is not an existing file") +
                      "; expected a program that can be started");
   }
 }
@@ -173,7 +173,7 @@ void require_writable_folder(const std::string& folder, const std::string& optio
   errno = ENOTDIR;
   if (std::filesystem::is_directory(tried, error) && can_make_files(tried)) return;
   throw UsageError(option + " " + folder + ": cannot be written: " + reason() +
-                   "; expected a folder that may be written to, or a place for one");
+                   "; expected a writable folder, or a place for one");
 }
 
 std::filesystem::path place_of(std::filesystem::path path) {

@@ -154,9 +154,8 @@ void Verification::note_distance() {
   const auto last = outcome_.last_for_distance();
   if (request_.min_distance <= 0 || !last || *last == outcome_.steps.size()) return;
   const char* const what = outcome_.is_too_near() ? "is too near" : outcome_.near ? "may be too near" : "touches";
-  outcome_.notes.push_back(
-      fmt::format("{} {} is the last that was looked at for the least distance: something {} in it",
-                  request_.step_word(), *last, what));
+  outcome_.notes.push_back(fmt::format("{} {} is the last that was checked for the least distance: something {} in it",
+                                       request_.step_word(), *last, what));
 }
 
 void Verification::set_verdict(bool all) {

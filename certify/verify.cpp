@@ -45,12 +45,12 @@ void VerifyRequest::prepare_to_reproduce() {
   lines_in_no_file = reproduce && RunReader(frames[0]).header().record == RecordMode::frames;
   if (lines_in_no_file && follow) {
     throw UsageError(
-        "--follow: the run recorded frames alone, whose windows are integrated again only when all are there; expected "
-        "a run with \"record\": \"full\", or no --follow");
+        "--follow: the run recorded only frames, so its windows are integrated again only when it is complete; "
+        "expected a run with \"record\": \"full\", or no --follow");
   }
   if (lines_in_no_file && proof) {
     throw UsageError(
-        "--proof: is about world lines in a file, and the run recorded frames alone; expected a run with \"record\": "
+        "--proof: needs world lines in a file, but the run recorded only frames; expected a run with \"record\": "
         "\"full\", or no --proof");
   }
 }

@@ -501,7 +501,7 @@ class SequenceVerification : private Verification {
   void put_notes() {
     outcome_.notes = request_.order_notes;
     if (request_.reading.given && outcome_.unreferenced_vertices > 0) {
-      outcome_.notes.push_back(fmt::format("{} of the {} vertices belong to no cell, and are not looked at",
+      outcome_.notes.push_back(fmt::format("{} of the {} vertices belong to no cell and are ignored",
                                            outcome_.unreferenced_vertices, outcome_.vertices));
     }
     append_capped(outcome_.notes, at_rest_, "steps in which nothing moves");

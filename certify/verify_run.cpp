@@ -405,8 +405,8 @@ void require_can_be_asked(const VerifyRequest& request, const RunReader& run) {
   if (request.constant_motion || request.merge_identical || request.points || request.dimension || request.ignore ||
       request.only_new) {
     throw UsageError(
-        "--static, --merge-identical, --points, --dimension, --ignore, --only-new: are for frames; expected none of "
-        "them with a run");
+        "--static, --merge-identical, --points, --dimension, --ignore, --only-new: apply to frames only; drop them for "
+        "a run");
   }
   if (run.header().record == RecordMode::frames && !request.reproduce) {
     throw InputError(

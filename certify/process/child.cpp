@@ -66,7 +66,7 @@ std::string ProgramEnd::words() const {
   switch (kind) {
     case Kind::exited: return fmt::format("exit code {}", code);
     case Kind::signalled: return fmt::format("signal {} ({})", code, ::strsignal(code));
-    case Kind::hung: return "no end within its limit of time";
+    case Kind::hung: return "no end within the time limit";
     case Kind::stopped: return "stopped";
   }
   return "";

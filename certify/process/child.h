@@ -53,7 +53,7 @@ struct ProgramEnd {
   double seconds = 0;    ///< from its start to its end, by the wall clock
 
   bool exited_with(int expected) const { return kind == Kind::exited && code == expected; }
-  /// "exit code 3", "signal 11 (Segmentation fault)", "no end within its limit of time", "stopped".
+  /// "exit code 3", "signal 11 (Segmentation fault)", "no end within the time limit", "stopped".
   std::string words() const;
   /// "exit 3", "signal 11", "no end after 20 s", "stopped".
   std::string brief() const;

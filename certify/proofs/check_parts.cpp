@@ -198,7 +198,7 @@ std::uint64_t ask_for_part(const std::string& steps, const fs::path& proof, std:
   if (there < least) {
     throw InputError(proof.string(), "",
                      there == 0 ? std::string(proof_cannot_be_cut)
-                                : fmt::format("{} steps are asked for, and the proof has {}", least, there));
+                                : fmt::format("{} steps are asked for, but the proof has {}", least, there));
   }
   if (least > 0) std::erase_if(asked, [](const std::string& word) { return field_of(word) == "steps"; });
   asked.push_back("steps=" + steps);

@@ -107,7 +107,7 @@ void CheckerProcess::write(std::string_view bytes) {
 void CheckerProcess::end_early() {
   const auto verdict = finish();
   if (verdict) {
-    throw ProofRefused(fmt::format("{} reads no more of the proof: {}", name_of(checker_), first_line(verdict->words)));
+    throw ProofRefused(fmt::format("{} stopped reading the proof: {}", name_of(checker_), first_line(verdict->words)));
   }
   cut_ = true;
 }
@@ -121,7 +121,7 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
     case ProgramEnd::Kind::hung:
       throw std::runtime_error(fmt::format("{} closed its output, but did not end", name_of(checker_)));
     case ProgramEnd::Kind::signalled:
-      const char* const why = end.code == SIGKILL ? ", as when memory runs out" : "";
+      const char* const why = end.code == SIGKILL ? ", perhaps out of memory" : "";
       throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), end.code, why));
   }
   constexpr int machine_failed = 4;

@@ -154,7 +154,7 @@ class ClaimFile {
     if (!json.is_object()) fail("", "expected an object, as `noli verify --claim-out` writes it");
     if (!json.contains("schema") || json["schema"] != schema) fail("/schema", fmt::format("expected \"{}\"", schema));
     if (!json.contains("version") || json["version"] != schema_version) {
-      fail("/version", fmt::format("expected {}; other versions are not known here", schema_version));
+      fail("/version", fmt::format("expected {}; this noli knows no other version", schema_version));
     }
     std::vector<std::string> fields;
     for (const auto& [key, value] : json.items()) {
@@ -163,7 +163,7 @@ class ClaimFile {
       if (key == "excluded" && json.value("motion", Json()) == "run") continue;
       const std::string text = word(key, value);
       const bool pairs = key == "excluded";
-      if (text.size() > (pairs ? longest_list : longest_word)) fail("/" + key, "is longer than a checker can be asked");
+      if (text.size() > (pairs ? longest_list : longest_word)) fail("/" + key, "is longer than a checker accepts");
       if (pairs)
         append_pairs(text, fields);
       else
@@ -273,13 +273,13 @@ std::vector<std::string> fields_beyond_default(const Claim& claim) {
 }
 
 std::optional<std::string> difference(const Claim& asked, const Claim& checked, bool refuted) {
-  if (asked.part != checked.part) return "steps: asked was for all, the checker's are a part, or the other way around";
+  if (asked.part != checked.part) return "steps: all were asked for, the checker's are a part, or the other way around";
   const auto one = values(asked), other = values(checked);
   for (std::size_t i = 0; i < one.size(); ++i) {
     const std::string& key = one[i].first;
     const bool extent = key == "steps" || key == "to";
     if (one[i].second == other[i].second || (refuted && extent)) continue;
-    return fmt::format("{}: asked was {}, the checker's is {}", key, one[i].second, other[i].second);
+    return fmt::format("{}: asked for {}, but the checker's is {}", key, one[i].second, other[i].second);
   }
   return std::nullopt;
 }

@@ -136,7 +136,7 @@ void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
   if (!verdict) return stopped(outcome);
   outcome.checked = first_line(verdict->words);
   if (verdict->code != (refuted ? 1 : 0)) {
-    refuse("the checker did not take the proof, which says that one of the two is wrong: " + *outcome.checked);
+    refuse("the checker did not accept the proof, so one of the two is wrong: " + *outcome.checked);
   }
   require_claim(outcome.claim, verdict->words, refuted);
   if (frames_are_streamed()) {
@@ -181,7 +181,7 @@ void ProofRoute::require_claim(const Claim& asked, const std::string& words, boo
   const auto checked = claim_of_words(words);
   if (!checked) refuse(fmt::format("the checker does not say which claim it {}", word));
   if (const auto other = difference(asked, *checked, refuted)) {
-    refuse(fmt::format("the checker {} another claim: {}", word, *other));
+    refuse(fmt::format("the checker {} a different claim: {}", word, *other));
   }
 }
 
@@ -202,7 +202,7 @@ std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
 
 std::optional<std::string> ProofRoute::why_not(const VerifyOutcome& outcome) const {
   if (!can_check_ && request_.lines_in_no_file)
-    return "the run recorded frames alone, and a proof of a least distance is checked with world lines in a file";
+    return "the run recorded only frames, but a proof of a least distance needs world lines in a file";
   if (!can_check_) return "standard input, pipes and generators cannot be read a second time";
   if (!can_be_asked(outcome.claim)) return "more pairs of cells are left out than a checker can be asked about";
   if (outcome.no_proof) return "no proof was found";

@@ -91,11 +91,10 @@ std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, st
   }
   const auto [least, greatest] = std::ranges::minmax_element(masses);
   if (*greatest > most_ratio * *least) {
-    throw InputError(
-        request.masses, "",
-        fmt::format("masses from {} to {}; expected none above {} times another one, which would take very "
-                    "short steps: let what is heavy be fixed instead",
-                    *least, *greatest, most_ratio));
+    throw InputError(request.masses, "",
+                     fmt::format("masses from {} to {}; expected none above {} times another one, which would take "
+                                 "very short steps: fix what is heavy instead",
+                                 *least, *greatest, most_ratio));
   }
   const double sum = std::accumulate(masses.begin(), masses.end(), 0.0);
   for (double& mass : masses) mass *= static_cast<double>(masses.size()) / sum;

@@ -124,13 +124,13 @@ class Repair {
     outcome_.run_begun = run_ && run_->has_begun();
     if (request_.thickness && *request_.thickness > outcome_.thickness) {
       outcome_.notes.push_back(
-          fmt::format("--thickness {} is more than half of the least height of cells: it is {} at most",
+          fmt::format("--thickness {} is more than half of the least height of cells; expected at most {}",
                       *request_.thickness, outcome_.thickness));
     }
     if (outcome_.frames > outcome_.copied) {
       outcome_.notes.emplace_back(
-          "frames that are not copies have vertices, faces, edges and points alone: no texture coordinates, "
-          "materials or groups, and polygons are cut into triangles");
+          "frames that are not copies have only vertices, faces, edges and points: no texture coordinates, materials "
+          "or groups, and polygons are cut into triangles");
     }
     outcome_.changed = changes_.steps();
     outcome_.momentum_into_fixed = changes_.momentum_into_fixed();
@@ -183,7 +183,7 @@ class Repair {
 
   void prepare_run(const std::vector<FrameBody>& bodies) {
     if (request_.only_new) {
-      throw UsageError("--run: cannot be combined with --only-new, as a run has no cells that may go on intersecting");
+      throw UsageError("--run: cannot be combined with --only-new, as a run has no cells that may keep intersecting");
     }
     require_place_for(*request_.run);
     RepairedScene scene;

@@ -195,7 +195,7 @@ void RepairedFrames::read_rows(std::vector<double>& times) {
     if (right) return;
     throw InputError(
         table_.string(), fmt::format("line {}", number),
-        "is damaged; expected the table as it was written, or --force without --resume, which begins anew");
+        "is damaged; expected the table as it was written, or --force without --resume, which starts over");
   };
   std::getline(in, line);
   require(!in.eof() && line + '\n' == table_head, 1);
@@ -214,7 +214,7 @@ void RepairedFrames::read_rows(std::vector<double>& times) {
     const FrameFacts facts = file_facts(file, [] { return stop_asked().has_value(); });
     if (hex(facts.sha256) != hash) {
       throw InputError(file.string(), "",
-                       "has changed since it was written; --force without --resume begins anew and replaces it");
+                       "has changed since it was written; --force without --resume starts over and replaces it");
     }
     if (!all_there) continue;
     times.push_back(*time);
@@ -258,7 +258,7 @@ std::vector<std::string> RepairedFrames::read_changed(std::size_t steps) {
 
 void RepairedFrames::fail_changed(std::size_t line) const {
   throw InputError(changed_.string(), fmt::format("line {}", line + 1),
-                   "is damaged or missing; --force without --resume begins anew");
+                   "is damaged or missing; --force without --resume starts over");
 }
 
 std::size_t RepairedFrames::count(std::string_view what) const {

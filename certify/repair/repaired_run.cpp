@@ -35,7 +35,7 @@ void RepairedRun::require_this_repair() const {
 
 void RepairedRun::refuse(const char* why) const {
   throw InputError(folder_.path().string(), "",
-                   std::string(why) + "; --force without --resume begins anew and replaces it");
+                   std::string(why) + "; --force without --resume starts over and replaces it");
 }
 
 void RepairedRun::claim(bool force, bool resume) {
@@ -72,7 +72,7 @@ bool RepairedRun::go_on(std::size_t steps, std::span<const Position> x, const st
     if (!window) refuse("lacks steps of this repair");
     end = std::move(window->positions);
   }
-  if (steps > 0 && !same_bits(end, in_run(x))) refuse("has another motion than this repair");
+  if (steps > 0 && !same_bits(end, in_run(x))) refuse("has a different motion than this repair");
   return true;
 }
 
@@ -105,7 +105,7 @@ bool RepairedRun::take_existing(std::span<const Position> end) {
     start_writing();
     return false;
   }
-  if (!same_bits(window->positions, in_run(end))) refuse("has another motion than this repair");
+  if (!same_bits(window->positions, in_run(end))) refuse("has a different motion than this repair");
   // A kill may have come between its commit and its line.
   if (steps_ >= logged_) {
     folder_.log({reader_->windows(), reader_->running_hash()}, window->end, window->breakpoints);

@@ -42,9 +42,7 @@ void PartFile::remove_earlier() const {
   }
   if (!S_ISREG(there.st_mode)) {
     throw InputError((path_.parent_path() / part_).string(), "",
-                     "is a link or no file; expected nothing by this name, or a file that a killed run left: remove "
-                     "it, and pass --resume to write " +
-                         name_);
+                     "is a link, or not a file; remove it, and pass --resume to write " + name_);
   }
   if (::unlinkat(folder_, part_.c_str(), 0) != 0 && errno != ENOENT) fail(errno, part_);
 }
@@ -62,7 +60,7 @@ void PartFile::take_name() {
   }
   if (!is_there()) {
     throw std::system_error(std::make_error_code(std::errc::io_error),
-                            (path_.parent_path() / part_).string() + ": somebody has replaced it");
+                            (path_.parent_path() / part_).string() + ": another process replaced it");
   }
   if (::renameat(folder_, part_.c_str(), folder_, name_.c_str()) != 0) fail(errno, name_);
   named_ = true;

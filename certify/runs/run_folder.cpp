@@ -96,9 +96,9 @@ void lock_folder(const fs::path& folder, const std::string& option, std::optiona
   try {
     lock.emplace(folder);
   } catch (const FolderLocked& locked) {
-    throw UsageError(option + " " + locked.what() + "; expected another folder, or to wait for its end");
+    throw UsageError(option + " " + locked.what() + "; choose another folder, or wait for its end");
   } catch (const std::system_error& closed) {
-    throw UsageError(option + " " + closed.what() + "; expected a folder that may be read and written to");
+    throw UsageError(option + " " + closed.what() + "; expected a readable and writable folder");
   }
 }
 
@@ -162,16 +162,16 @@ KnownWindows RunFolder::go_on(const Json& scene, const Sha256Digest& model) {
   const Json there = Json::parse(read_scene(path_, manifest), nullptr, false);
   if (!there.is_object() || essential(there) != essential(scene)) {
     throw InputError((path_ / "scene.json").string(), "",
-                     "is another scene; expected the one to go on with (its duration may differ)");
+                     "is another scene; expected the scene of the run (its duration may differ)");
   }
   if (manifest.model_sha256 && *manifest.model_sha256 != model) {
     throw InputError((path_ / "manifest.json").string(), "/model/sha256",
-                     "the run began with other meshes or paths; expected those files that the scene names unchanged");
+                     "the run began with other meshes or paths; expected the files that the scene names, unchanged");
   }
   try {
     log_.emplace(path_);
   } catch (const std::system_error& lock) {
-    throw UsageError("--resume: " + std::string(lock.what()) + "; expected a run that may be written to");
+    throw UsageError("--resume: " + std::string(lock.what()) + "; expected a writable run");
   }
   log_has_begun_ = told.parts > 0;
   KnownWindows known = told.known;

@@ -68,7 +68,7 @@ class Numbers {
 
   std::uint64_t below(std::uint64_t end) {
     const auto n = take<std::uint64_t>();
-    if (n >= end) throw std::invalid_argument("a vertex or a pair of features that is none");
+    if (n >= end) throw std::invalid_argument("a vertex or a pair of features that does not exist");
     return n;
   }
 
@@ -89,7 +89,7 @@ StepHistogram take_steps(Numbers& take, double smallest) {
   std::uint64_t count = 0;
   take(count);
   if (count != take.left() / 16 || take.left() % 16 != 0) {
-    throw std::invalid_argument("it has another size than its bins take");
+    throw std::invalid_argument("its size does not match its bins");
   }
   steps.bins.resize(count);
   for (auto& bin : steps.bins) {
@@ -150,7 +150,7 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
 std::string not_a_row(std::string_view bytes) {
   if (bytes.empty()) return "a repair has no energies; expected a run of `noli simulate`";
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is no row of version 6, as a run of an earlier Noli has it; expected a run of this version";
+    return "its series is not a row of version 6, so an earlier Noli wrote it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
   return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 6";

@@ -70,7 +70,7 @@ void check_books(const SeriesRow& row, const SeriesRow& before) {
 void check_pair(std::string_view what, FeaturePair pair, std::span<const VertexId> all, const RunScene& scene) {
   const bool flat = scene.header.dimension == 2;
   require(!flat || pair == FeaturePair::vertex_edge || pair == FeaturePair::vertex_vertex,
-          "{} between a pair of features that 2D has not: {}", what, name(pair));
+          "{} between a pair of features that 2D does not have: {}", what, name(pair));
   const std::span<const VertexId> vertices = all.first(point_count(pair));
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     require(vertices[i] < scene.mesh.vertex_count, "{} at vertex {}; expected one below {}", what, vertices[i],

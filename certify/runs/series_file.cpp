@@ -62,7 +62,8 @@ void SeriesFile::guarded(const F& work) {
 
 void SeriesFile::declare(const series::Array& array) {
   require(!arrays_.contains(array.name), array.name, "the name is not new");
-  for (const auto& [name, there] : arrays_) require(!one_is_in(name, array.name), array.name, "an array is no group");
+  for (const auto& [name, there] : arrays_)
+    require(!one_is_in(name, array.name), array.name, "an array is not a group");
   require(!array.shape.empty() && array.shape.size() <= series::most_dimensions, array.name, "its dimensions");
   require(series::product_from(array.shape, 2) <= series::most_in_a_piece, array.name, "too much in one second index");
   std::string bytes;

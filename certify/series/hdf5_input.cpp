@@ -88,7 +88,7 @@ void require_own_data(hid_t dataset, const std::string& name) {
   const auto unpacked =
       static_cast<double>(H5Sget_simple_extent_npoints(*space)) * static_cast<double>(H5Tget_size(*type));
   if (unpacked > most_unpacked && unpacked > most_ratio * static_cast<double>(H5Dget_storage_size(dataset))) {
-    throw BadInput(name, "is longer than 1 GB and was packed to less than a two hundredth");
+    throw BadInput(name, "is longer than 1 GB and was packed to less than 1/200");
   }
 }
 
@@ -191,7 +191,7 @@ Hdf5Input::Hdf5Input(int descriptor) {
   if (access < 0 || H5PLset_loading_state(0) < 0 || !use_descriptor(access, descriptor, end_lost))
     end_with(Ending::failure, "HDF5 fails");
   file_ = require(H5Fopen("frames", H5F_ACC_RDONLY, access), "the file",
-                  "is no HDF5, or damaged; expected what ParaView, VTK or Noli write");
+                  "is not HDF5, or damaged; expected what ParaView, VTK or Noli write");
 }
 
 bool Hdf5Input::has(const std::string& path) const { return is_there(file_, path); }

@@ -118,7 +118,7 @@ void StreamReader::require_end() {
   while ((got = begin_ < end_ ? 1 : ::read(descriptor_, &byte, 1)) < 0 && errno == EINTR) {
   }
   if (got < 0) end_lost(errno);
-  require(got == 0, "goes on behind its end");
+  require(got == 0, "continues after its end");
 }
 
 }  // namespace noli::series

@@ -14,7 +14,7 @@ constexpr std::uint64_t most_steps = std::uint64_t{1} << 32;
 
 /// A count of a file.
 std::uint64_t count_of(std::int64_t number, const std::string& where) {
-  if (number < 0) throw BadInput(where, std::to_string(number) + " is no count");
+  if (number < 0) throw BadInput(where, std::to_string(number) + " is not a count");
   return static_cast<std::uint64_t>(number);
 }
 

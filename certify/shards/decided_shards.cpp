@@ -14,7 +14,7 @@
 namespace noli {
 namespace {
 
-constexpr const char* remedy = "run `noli verify --shard` again: it does what is missing";
+constexpr const char* remedy = "run `noli verify --shard` again: it does the rest";
 
 }  // namespace
 
@@ -68,9 +68,9 @@ void DecidedShards::open(std::uint64_t task) {
 
 void DecidedShards::require_inputs() const {
   if (const auto other = other_input(*shard_, files_)) {
-    throw InputError(*other, "",
-                     fmt::format("is not the file that {} was made from: its SHA-256 is another one; {}",
-                                 on_one_line(file()), remedy));
+    throw InputError(
+        *other, "",
+        fmt::format("is not the file that {} was made from: its SHA-256 differs; {}", on_one_line(file()), remedy));
   }
 }
 

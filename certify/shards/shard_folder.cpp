@@ -73,7 +73,7 @@ std::string difference(const Json& asked, const Json& found) {
   for (const auto& [key, value] : asked.items()) {
     if (!found.contains(key) || found[key] != value) return key;
   }
-  return "nothing that is known";
+  return "an unknown member";
 }
 
 }  // namespace

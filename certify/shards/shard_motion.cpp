@@ -25,8 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void require_files(const VerifyRequest& request) {
-  if (request.trajectory)
-    throw UsageError("--trajectory: is about all frames; expected none when they are verified in parts");
+  if (request.trajectory) throw UsageError("--trajectory: writes all frames; drop it when they are verified in parts");
   const bool files =
       std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
   if (request.reading.given || !files) {
@@ -82,7 +81,7 @@ class Windows : public ShardMotion {
   std::uint64_t step_count() override {
     look();
     if (counted_.windows() == 0 && !request_.follow) {
-      throw InputError(run_.string(), "", "has no window yet; expected one at least, or --follow");
+      throw InputError(run_.string(), "", "has no window yet; wait for one, or pass --follow");
     }
     return counted_.windows();
   }

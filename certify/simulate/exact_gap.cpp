@@ -30,7 +30,7 @@ class GapSearch {
       if (piece.farther >= best.above) break;  // neither this nor any later piece is nearer
       improve(best, piece);
     }
-    if (!std::isfinite(best.up_to)) throw std::range_error("exact_gap: the distance is no double");
+    if (!std::isfinite(best.up_to)) throw std::range_error("exact_gap: the distance is not a double");
     return best;
   }
 

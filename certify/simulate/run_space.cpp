@@ -100,10 +100,10 @@ std::optional<std::string> space_problem(const RunBytes& bytes, const fs::path& 
                                          std::optional<std::uint64_t> free) {
   if (!free || bytes.all() <= static_cast<double>(*free)) return std::nullopt;
   return fmt::format(
-      "-o {}: the disk has {} left, and the run needs {}; free space, {}shorten the run with --until, or pass "
+      "-o {}: the disk has {} left, but the run needs {}; free space, {}shorten the run with --until, or pass "
       "--ignore-space, as this is a prediction",
       run.string(), bytes_text(static_cast<double>(*free)), about(bytes),
-      bytes.full ? "record frames alone (\"record\": \"frames\" in the scene), " : "");
+      bytes.full ? "record only frames (\"record\": \"frames\" in the scene), " : "");
 }
 
 std::string bytes_text(double bytes) {

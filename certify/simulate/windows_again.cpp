@@ -112,7 +112,7 @@ std::unique_ptr<WindowsAgain> make(const fs::path& run, const RunManifest& manif
   auto model = integrator::build_model<Dim>(scene).model;
   if (manifest.model_sha256 && *manifest.model_sha256 != hash_of<Dim>(model)) {
     throw InputError((run / "manifest.json").string(), "/model/sha256",
-                     "the run began with other meshes or paths; expected those files that the scene names unchanged");
+                     "the run began with other meshes or paths; expected the files that the scene names, unchanged");
   }
   const bool same = model.mesh == expected.mesh && labels_of<Dim>(model) == expected.labels &&
                     exclusions_of<Dim>(model) == expected.exclusions && scene.window == expected.header.window_length;

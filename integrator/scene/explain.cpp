@@ -159,8 +159,8 @@ template <int Dim>
 void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation& e) {
   for (const Pinch& pinch : find_pinches(built, duration)) {
     e.warnings.push_back(
-        fmt::format("{} and {} come to touch each other at about {:.6g} s: anything free between them is then squeezed "
-                    "to a gap of 0, for which no number of layers is enough",
+        fmt::format("{} and {} touch each other at about {:.6g} s: anything free between them is then squeezed to a "
+                    "gap of 0, for which no number of layers is enough",
                     built.bodies[pinch.bodies[0]].name, built.bodies[pinch.bodies[1]].name, pinch.time));
   }
 }

@@ -16,8 +16,7 @@ std::string step_text(const PredictedGroup& group) {
 
 std::string resonance_text(const ResonanceWarning& w) {
   return fmt::format(
-      "{} with step {:.6g} s kicks the oscillation of {} with step {:.6g} s in time with it, at {} vertices; most at "
-      "vertex "
+      "{} with step {:.6g} s resonates with the oscillation of {} with step {:.6g} s at {} vertices; most at vertex "
       "{}: phase {:.3g} a step, strength {:.3g}. Damping, or a smaller \"step_factor\", helps",
       name(w.slow_kind), w.slow_step, name(w.fast_kind), w.fast_step, w.vertices, w.vertex, w.meeting.phase,
       w.meeting.strength);

@@ -41,7 +41,7 @@ decltype(Transform::rotate) read_rotation(const Field& f) {
   const bool plane = f.dimension() == 2;
   if (plane && !f.has("degrees")) f.fail("expected the field \"degrees\", as the scene has dimension 2");
   for (const std::string_view name : {"axis", "quaternion"}) {
-    if (plane && f.has(name)) f[name].fail("expected \"degrees\" alone, as the scene has dimension 2");
+    if (plane && f.has(name)) f[name].fail("expected only \"degrees\", as the scene has dimension 2");
   }
   if (plane) return AxisTurn{{0, 0, 1}, f["degrees"].number()};
   if (f.has("quaternion")) {

@@ -89,7 +89,7 @@ class Run:
         Raises
         ------
         InputError
-            The run is damaged, does not have one of these times, or recorded frames alone.
+            The run is damaged, does not have one of these times, or recorded only frames.
         """
         asked = numbers(times, "times").astype(np.float64)
         if asked.ndim > 1:

@@ -32,7 +32,7 @@ class Window:
     momentum, angular_momentum : list of 3
         [N s], [N m s]
     frames : list of (time, (vertices, 3) float64)
-        Within it, in a run that recorded frames alone; else empty.
+        Within it, in a run that recorded only frames; else empty.
 
     In a run of ``noli.repair`` velocities are 0. There, and in a run of an earlier version, energies and momenta are empty.
     """

@@ -313,7 +313,7 @@ def verify(
     ignore : path
         A file of groups whose cells are not compared (``noli verify --help``); for arrays, CollisionMesh has ``ignore``.
     reproduce, scene_folder : bool, path
-        Integrates the windows of a run again that recorded frames alone; where its scene's file was.
+        Integrates the windows of a run again that recorded only frames; where its scene's file was.
     force : bool
         Replaces an existing proof.
     progress : callable, True or None

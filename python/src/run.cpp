@@ -110,7 +110,7 @@ py::array_t<double> positions_of_run(const fs::path& run, const std::vector<doub
   SeriesReader reader = opened(run);
   if (reader.header().record != RecordMode::full) {
     throw InputError(run.string(), "",
-                     "recorded frames alone; expected a run with record \"full\" (its windows have the frames)");
+                     "recorded only frames; expected a run with record \"full\" (its windows have the frames)");
   }
   const std::size_t vertices = reader.mesh().vertex_count;
   py::array_t<double> all({times.size(), vertices, std::size_t{3}});

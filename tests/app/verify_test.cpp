@@ -127,8 +127,8 @@ TEST_F(Verify, KeepsGoingBehindWhatIsTooNear) {
   EXPECT_EQ(json["first"]["step"], 4);
   EXPECT_EQ(json["contacts"], vertex_face_contacts(6));
   EXPECT_EQ(json["near"]["step"], 2);
-  EXPECT_NE(json["notes"].dump().find("step 2 is the last that was looked at for the least distance: something is too "
-                                      "near in it"),
+  EXPECT_NE(json["notes"].dump().find(
+                "step 2 is the last that was checked for the least distance: something is too near in it"),
             std::string::npos)
       << json["notes"];
   const Json apart = json_of(with(frames({2, 1, 0.5, 1, 2}), {"--keep-going", "--min-distance", "0.75"}), 1);
@@ -150,10 +150,9 @@ TEST_F(Verify, KeepsGoingBehindWhatMayBeTooNear) {
   EXPECT_EQ(may_be["verdict"], "undecided");
   EXPECT_EQ(may_be["near"]["step"], 1);
   EXPECT_EQ(may_be["near"]["witnessed"], false);
-  EXPECT_NE(
-      may_be["notes"].dump().find("step 1 is the last that was looked at for the least distance: something may be "
-                                  "too near in it"),
-      std::string::npos)
+  EXPECT_NE(may_be["notes"].dump().find(
+                "step 1 is the last that was checked for the least distance: something may be too near in it"),
+            std::string::npos)
       << may_be["notes"];
   const Json meets = json_of({"verify", a, b, c, d, "--min-distance", "1", "--keep-going"}, 1);
   EXPECT_EQ(meets["verdict"], "contact");

@@ -63,7 +63,7 @@ class Runs(TestCase):
         frames = [frame for window in run for frame in window.frames]
         self.assertEqual([round(200 * time) for time, _ in frames], [0, 1, 2, 3, 4, 5, 6])
         self.assertEqual(frames[0][1].shape, (16, 3))
-        with self.assertRaisesRegex(noli.InputError, "recorded frames alone"):
+        with self.assertRaisesRegex(noli.InputError, "recorded only frames"):
             run.positions(0.01)
 
     def test_exports_what_the_command_exports(self):

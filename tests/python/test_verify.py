@@ -219,7 +219,7 @@ class Verify(TestCase):
         self.assertIn("empty", str(result))
         with self.assertRaises(noli.NotProved):
             result.raise_unless_proved()
-        self.assertIn("125 of the 128 vertices belong to no cell, and are not looked at", result.notes)
+        self.assertIn("125 of the 128 vertices belong to no cell and are ignored", result.notes)
 
     def test_bodies_that_do_not_cover_everything(self):
         mesh = noli.CollisionMesh(self.F, bodies={"sheet": self.bodies["sheet"]})

@@ -182,7 +182,7 @@ TEST_F(Arrays, ThatCannotBeReadMatterOnlyIfTheyAreWanted) {
       folder.write("o.npz", stored_zip({{"x.npy", motion().bytes()}, {"f.npy", faces.bytes()}, {"o.npy", objects}}));
   const auto more =
       folder.write("p.npz", stored_zip({{"x.npy", motion().bytes()}, {"f.npy", faces.bytes()}, {"faces.npx", "x"}}));
-  EXPECT_NE(refusal({more}).find("has the member 'faces.npx', which is no .npy"), std::string::npos);
+  EXPECT_NE(refusal({more}).find("has the member 'faces.npx', which is not an .npy"), std::string::npos);
   EXPECT_EQ(refusal_or_none({more}, {"x", "f"}), "");
   expect_motion(*open_frames({file}));
   EXPECT_NE(refusal({file}, {"o"}).find("'|O'"), std::string::npos);
@@ -207,7 +207,8 @@ TEST_F(Arrays, AreRefusedWithTheirPlace) {
   EXPECT_NE(refusal({npy("a.npy", frame(0)), npy("b.npy", {"<f8", {1, 3}, {0, 0, 0}})})
                 .find("all frames must have the same vertices"),
             std::string::npos);
-  EXPECT_NE(refusal({npy("a.npy", frame(0)), folder.write("b.ply", "ply")}).find("is no .npy file"), std::string::npos);
+  EXPECT_NE(refusal({npy("a.npy", frame(0)), folder.write("b.ply", "ply")}).find("is not an .npy file"),
+            std::string::npos);
   EXPECT_NE(refusal({folder.write("t.npz", "no archive")}).find("cannot be read as an archive"), std::string::npos);
   EXPECT_NE(refusal({folder / "missing.npz"}).find("No such file"), std::string::npos);
 }
@@ -300,7 +301,7 @@ TEST_F(Arrays, OnAStreamAreRefusedWithTheirNumber) {
   EXPECT_EQ(wrong(all_frames() + NumpyArray{"<f8", {1, 3}, {0, 0, 0}}.bytes()),
             "standard input, array 4: is float64 (1, 3), but frame 0 has 6 vertices; all frames must have the same");
   EXPECT_EQ(wrong(all_frames() + "\n"),
-            "standard input, array 4: is no array of numpy: it does not begin with \\x93NUMPY");
+            "standard input, array 4: is not an array of numpy: it does not begin with \\x93NUMPY");
   EXPECT_EQ(wrong(faces.bytes() + NumpyArray{"<f8", {1, 3}, {0, 0, 0}}.bytes()),
             "standard input, array 1: cell 0 has vertex 1; expected 0 to 0");
   const std::string whole = all_frames();

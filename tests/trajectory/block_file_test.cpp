@@ -117,10 +117,9 @@ TEST(BlockFile, ACommitFarBehindADamagedBlockIsFound) {
   const Sha256Digest running = next_running_hash({}, sha256(first));
   std::string bytes = first + raw_commit(0, first, {}) + second + raw_commit(1, second, running);
   bytes[first.size() + block_format::commit_size + 5] = '\x7f';  // in the length
-  EXPECT_EQ(
-      input_error([&] { read_blocks(bytes); }),
-      "file: byte 121: truncated: a block of 1081145 bytes, but only 1061013 bytes remain; committed blocks follow, "
-      "so this is no end that was cut off");
+  EXPECT_EQ(input_error([&] { read_blocks(bytes); }),
+            "file: byte 121: truncated: a block of 1081145 bytes, but only 1061013 bytes remain; committed blocks "
+            "follow, so this is not a truncated end");
 }
 
 TEST(BlockFile, ACommitAcrossTheStepsOfTheSearchIsFound) {
@@ -164,8 +163,8 @@ std::vector<BadFile> bad_files() {
       {"size", group + raw_block(block_format::commit, short_commit),
        "file: byte 33: a commit of 71 bytes, expected 72"},
       {"damaged", (group + raw_commit(0, group, {})).replace(28, 1, "b"),
-       "file: byte 16: damaged: the checksum of block 'AAAA' does not fit; committed blocks follow, so this is no end "
-       "that was cut off"},
+       "file: byte 16: damaged: the checksum of block 'AAAA' does not fit; committed blocks follow, so this is not a "
+       "truncated end"},
   };
 }
 

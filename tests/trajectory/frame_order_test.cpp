@@ -70,7 +70,7 @@ TEST(FrameOrder, NamesThatDifferInMoreThanNumbersAreTakenAsTheyAre) {
   expect_taken({"after_1.ply", "before_0.ply"});
   expect_taken({"run_2/rest.ply", "start_1/rest.ply"});
   expect_taken({});
-  EXPECT_EQ(order_frames({"b.ply", "a.ply"}).how, "as given; no two names differ in their numbers alone");
+  EXPECT_EQ(order_frames({"b.ply", "a.ply"}).how, "as given; no two names differ only in their numbers");
 }
 
 TEST(FrameOrder, ExtensionsAndFoldersBelongToTheName) {

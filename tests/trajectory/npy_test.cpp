@@ -76,8 +76,8 @@ TEST(Npy, ALongArrayIsReadInParts) {
 TEST(Npy, SaysWhatIsNoArray) {
   const auto refusal = [](const std::string& bytes) { return input_error([&] { read<double>(bytes); }); };
   const auto of = [&](const std::string& dictionary) { return refusal(npy(dictionary, "")); };
-  EXPECT_EQ(refusal("PK\3\4 and so on"), "a: is no array of numpy: it does not begin with \\x93NUMPY");
-  EXPECT_EQ(refusal("\x93NUM"), "a: is no array of numpy: it does not begin with \\x93NUMPY");
+  EXPECT_EQ(refusal("PK\3\4 and so on"), "a: is not an array of numpy: it does not begin with \\x93NUMPY");
+  EXPECT_EQ(refusal("\x93NUM"), "a: is not an array of numpy: it does not begin with \\x93NUMPY");
   EXPECT_EQ(refusal(npy("{}", "", 4)), "a: has version 4.0 of the format; expected 1.0 to 3.0");
   EXPECT_EQ(of("{}"), "a: the header lacks one of descr, fortran_order, shape");
   EXPECT_EQ(of("{'descr': '|O', 'fortran_order': False, 'shape': (1,)}"),
@@ -96,7 +96,7 @@ TEST(Npy, SaysWhatIsNoArray) {
   EXPECT_EQ(of("{'descr': '<f8', 'descr': '<f8'}"),
             "a: the header has the key 'descr'; expected descr, fortran_order, shape, once each");
   EXPECT_EQ(of("{'descr': '<f8', 'fortran_order': False, 'shape': (1,)} x"), "a: something follows the header");
-  EXPECT_NE(of("descr").find("is no dictionary of three keys"), std::string::npos);
+  EXPECT_NE(of("descr").find("is not a dictionary of three keys"), std::string::npos);
   EXPECT_EQ(of("{'descr"), "a: the header ends within a text");
 }
 

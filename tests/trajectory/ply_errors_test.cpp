@@ -22,7 +22,7 @@ const std::string edges = xy + "element edge 1\nproperty int vertex1\nproperty i
 
 const BadPly bad_plys[] = {
     {"empty", "", "is empty"},
-    {"no_ply", "solid\n", "line 1: expected 'ply', this is no PLY file"},
+    {"no_ply", "solid\n", "line 1: expected 'ply', this is not a PLY file"},
     {"ends_at_once", "ply", "line 1: the header ends without 'end_header'"},
     {"no_end_header", xy, "line 5: the header ends without 'end_header'"},
     {"no_format", "ply\nelement vertex 0\nend_header\n", "line 3: the header has no 'format' line"},

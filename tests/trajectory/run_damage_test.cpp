@@ -219,7 +219,7 @@ class SpoiledExclusion : public ::testing::TestWithParam<SpoiledExclusions> {};
 INSTANTIATE_TEST_SUITE_P(
     All, SpoiledExclusion,
     ::testing::Values(
-        SpoiledExclusions{"none", [](std::string& p) { p[0] = 0; }, "no pairs of groups; expected one at least"},
+        SpoiledExclusions{"none", [](std::string& p) { p[0] = 0; }, "no pairs of groups; expected at least one"},
         SpoiledExclusions{"many", [](std::string& p) { p[3] = '\x7f'; }, "expected pairs of groups and the groups"},
         SpoiledExclusions{"backwards", [](std::string& p) { p[4] = 9; },
                           "the pair of groups 9 and 7; expected ascending"},

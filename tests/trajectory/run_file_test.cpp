@@ -296,7 +296,7 @@ TEST(RunFileInAFolder, HasWhatIsKnownOfIt) {
     EXPECT_NE(error_of_a_look(bytes, wrong).find(other), std::string::npos) << count;
     EXPECT_EQ(reader.next_window().has_value(), count < 3);
   }
-  const std::string missing = "run: windows are missing: it has 3, the log tells of 4";
+  const std::string missing = "run: windows are missing: it has 3, the log lists 4";
   EXPECT_EQ(error_of_reading(bytes, {4, std::nullopt, false}), missing);
   EXPECT_EQ(error_of_a_look(bytes, {4, std::nullopt, false}), missing);
   EXPECT_TRUE(reads(bytes, {4, sha256("other"), true})) << "it is made again";

@@ -96,9 +96,9 @@ TEST(Vtk, SaysWhatIsWrong) {
   const auto refusal = [](const std::string& text) { return input_error([&] { parse_vtk(text, "a.vtu"); }); };
   const auto with = [&](const std::string& from, const std::string& to) { return refusal(replaced(good, from, to)); };
   EXPECT_EQ(refusal("").substr(0, 13), "a.vtu: byte 0");
-  EXPECT_NE(refusal("<VTKFile><a></VTKFile>").find("is no XML"), std::string::npos);
+  EXPECT_NE(refusal("<VTKFile><a></VTKFile>").find("is not XML"), std::string::npos);
   EXPECT_EQ(with("type=\"UnstructuredGrid\"", "type=\"ImageData\""),
-            "a.vtu: is no VTKFile of type UnstructuredGrid, but of type 'ImageData'");
+            "a.vtu: is not a VTKFile of type UnstructuredGrid, but of type 'ImageData'");
   EXPECT_EQ(with("version=\"1.0\" byte", "compressor=\"vtkLZ4DataCompressor\" byte"),
             "a.vtu: is compressed by 'vtkLZ4DataCompressor'; expected vtkZLibDataCompressor, or none");
   EXPECT_EQ(with("NumberOfPoints=\"8\"", "NumberOfPoints=\"9\""),
@@ -183,7 +183,7 @@ TEST(Pvd, NamesItsFilesInTheOrderOfTime) {
             name + ": b.vtu: is at time 0.5, and the file before at 0.5; expected ascending times, one file each");
   EXPECT_EQ(input_error([&] { files_of_pvd(series({})); }), name + ": names no frame");
   EXPECT_EQ(input_error([&] { files_of_pvd(folder.write("s.pvd", grid("0 1 2", "3", "5"))); }),
-            name + ": is no VTKFile of type Collection, but of type 'UnstructuredGrid'");
+            name + ": is not a VTKFile of type Collection, but of type 'UnstructuredGrid'");
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ std::string BlockReader::read(std::uint64_t offset, std::uint64_t count) {
 std::optional<std::string> BlockReader::read_block(std::uint64_t offset, std::string& header, std::string& body) {
   using namespace block_format;
   const std::uint64_t left = size_ - offset;
-  if (left < block_header_size) return fmt::format("truncated: {} bytes are no block", left);
+  if (left < block_header_size) return fmt::format("truncated: {} bytes are not a block", left);
   header = read(offset, block_header_size);
   const auto length = get<std::uint64_t>(header.data() + 4);
   if (length > left - block_header_size || left - block_header_size - length < checksum_size) {
@@ -153,7 +153,7 @@ std::optional<Block> BlockReader::next() {
   if (at_ == size_) return std::nullopt;
   std::string header, body;
   if (const auto problem = read_block(at_, header, body)) {
-    if (commit_follows(at_)) fail(at_, *problem + "; committed blocks follow, so this is no end that was cut off");
+    if (commit_follows(at_)) fail(at_, *problem + "; committed blocks follow, so this is not a truncated end");
     at_ = size_;
     return std::nullopt;
   }
@@ -187,7 +187,7 @@ bool BlockReader::skip_group() {
   }
   const std::optional<Block> block = place ? look_at_block(at) : std::nullopt;
   if (!block) {
-    if (commit_follows(at)) fail(at, "damaged: committed blocks follow, so this is no end that was cut off");
+    if (commit_follows(at)) fail(at, "damaged: committed blocks follow, so this is not a truncated end");
     return false;
   }
   require_next_commit(*block);

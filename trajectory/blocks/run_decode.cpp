@@ -151,7 +151,7 @@ Exclusions decode_exclusions(const Source& source, const Mesh& mesh) {
   Payload payload(source);
   Exclusions exclusions;
   const auto count = payload.number<std::uint32_t>();
-  if (count == 0) payload.fail("no pairs of groups; expected one at least");
+  if (count == 0) payload.fail("no pairs of groups; expected at least one");
   payload.require(2 * std::uint64_t{count} + mesh.vertex_count, 2, "pairs of groups and the groups of all vertices");
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto a = payload.number<std::uint16_t>(), b = payload.number<std::uint16_t>();

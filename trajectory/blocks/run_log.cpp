@@ -75,8 +75,8 @@ class Scan {
   [[noreturn]] void fail(const std::string& problem) const {
     throw InputError(path_.string(), fmt::format("line {}", extent_.lines + 1),
                      problem +
-                         ": the log is damaged, or of an earlier version; without the file the run can be read, "
-                         "but nobody knows how it ended");
+                         ": the log is damaged, or of an earlier version; without this file the run can be read, but "
+                         "not how it ended");
   }
 
   std::filesystem::path path_;

@@ -173,7 +173,7 @@ void RunReader::expect(const KnownWindows& known) {
 void RunReader::require_count(std::uint64_t count) const {
   if (count >= known_.count || known_.made_again) return;
   throw InputError(blocks_.name(), "",
-                   fmt::format("windows are missing: it has {}, the log tells of {}", count, known_.count));
+                   fmt::format("windows are missing: it has {}, the log lists {}", count, known_.count));
 }
 
 void RunReader::require_hash(const Sha256Digest& running) const {

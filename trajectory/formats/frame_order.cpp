@@ -289,7 +289,7 @@ class Orderer {
   OrderedFrames operator()(FrameOrder order) const {
     OrderedFrames result;
     result.frames = frames_;
-    result.how = families_.empty() ? "as given; no two names differ in their numbers alone"
+    result.how = families_.empty() ? "as given; no two names differ only in their numbers"
                                    : "as given, which is the order of the numbers in the names";
     if (order == FrameOrder::natural) {
       sort(result);

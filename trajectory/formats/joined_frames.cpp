@@ -29,7 +29,7 @@ JoinedFrames::JoinedFrames(const std::vector<BodyFrames>& bodies, const FrameRea
 
 void JoinedFrames::require_counts(const std::vector<BodyFrames>& bodies) {
   if (bodies.empty() || bodies[0].still)
-    throw InputError("frames", "", "no body moves; expected one at least (--body)");
+    throw InputError("frames", "", "no body moves; expected at least one (--body)");
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto count = parts_[i].source->count();
     if (!count) throw UsageError("-: cannot be one of several bodies; expected files");

@@ -44,7 +44,7 @@ class HeaderParser {
   PlyHeader parse() {
     std::string_view line;
     if (!lines_.next(line) || line != "ply")
-      throw InputError(file_, line_place(1), "expected 'ply', this is no PLY file");
+      throw InputError(file_, line_place(1), "expected 'ply', this is not a PLY file");
     while (true) {
       if (!lines_.next(line))
         throw InputError(file_, line_place(lines_.number()), "the header ends without 'end_header'");

@@ -126,7 +126,7 @@ TEST_F(Hdf5Frames, WhatIsNotAsItMustBeIsNamed) {
   expect_refused(with("VTKHDF/Points", std::vector<double>(12, 0), {4, 3}, H5T_IEEE_F64LE), "has 4 rows; expected 6");
   expect_refused(with("VTKHDF/Points", std::vector<double>(18, nan), {6, 3}, H5T_IEEE_F32LE),
                  "[0]: vertex 0: expected a finite coordinate");
-  expect_refused(with("VTKHDF/NumberOfPoints", {-6}), "-6 is no count");
+  expect_refused(with("VTKHDF/NumberOfPoints", {-6}), "-6 is not a count");
   expect_refused(with("VTKHDF/NumberOfPoints", {}), "VTKHDF/NumberOfPoints: is not there");
   expect_refused(with("VTKHDF/NumberOfPoints", {6, 0}), "another number of parts");
   expect_refused(with("VTKHDF/Polygons/Connectivity", {0, 1, 2, 3, 4, 6}), "a cell has point 6; expected 0 to 5");
@@ -138,8 +138,8 @@ TEST_F(Hdf5Frames, WhatIsNotAsItMustBeIsNamed) {
   expect_refused(with("VTKHDF/Steps/PointOffsets", {7}), "expected 6 from row 7 on");
   expect_refused(with("VTKHDF/Steps/PartOffsets", {1}), "has parts that are not there");
   expect_refused(with("VTKHDF/Steps/CellOffsets", {0, 0}), "another number of columns");
-  expect_refused(folder.write("text.h5", "no HDF5"), "is no HDF5, or damaged");
-  expect_refused(folder.write("empty.hdf", ""), "is no HDF5, or damaged");
+  expect_refused(folder.write("text.h5", "no HDF5"), "is not HDF5, or damaged");
+  expect_refused(folder.write("empty.hdf", ""), "is not HDF5, or damaged");
   expect_refused(folder.path("missing.hdf5"), "cannot be opened");
 }
 

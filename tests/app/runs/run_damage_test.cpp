@@ -129,7 +129,7 @@ TEST_F(Damage, TheLastCommitIsMissed) {
     const Process process = run_noli(words);
     EXPECT_EQ(process.exit_code, 3) << name << process.out;
     if (name.starts_with("check")) continue;  // the checker words it differently
-    EXPECT_NE(process.err.find("windows are missing: it has 2, the log tells of 3"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("windows are missing: it has 2, the log lists 3"), std::string::npos) << process.err;
   }
 }
 

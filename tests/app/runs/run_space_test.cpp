@@ -32,14 +32,13 @@ TEST(RunSpace, WhatDoesNotFitIsAProblemAndWhatFitsIsNone) {
   bytes.proved = true;
   EXPECT_EQ(space_problem(bytes, "runs/a", 2'400'000'000), std::nullopt);
   EXPECT_EQ(space_problem(bytes, "runs/a", std::nullopt), std::nullopt);
-  EXPECT_EQ(
-      space_problem(bytes, "runs/a", 2'399'999'999),
-      "-o runs/a: the disk has 2.4 GB left, and the run needs about 2.4 GB of world lines, proof and frames; free "
-      "space, record frames alone (\"record\": \"frames\" in the scene), shorten the run with --until, or pass "
-      "--ignore-space, as this is a prediction");
+  EXPECT_EQ(space_problem(bytes, "runs/a", 2'399'999'999),
+            "-o runs/a: the disk has 2.4 GB left, but the run needs about 2.4 GB of world lines, proof and frames; "
+            "free space, record only frames (\"record\": \"frames\" in the scene), shorten the run with --until, or "
+            "pass --ignore-space, as this is a prediction");
   bytes.full = bytes.proved = false;
   EXPECT_EQ(space_problem(bytes, "runs/a", 5),
-            "-o runs/a: the disk has 5 bytes left, and the run needs about 2.4 GB of frames; free space, shorten the "
+            "-o runs/a: the disk has 5 bytes left, but the run needs about 2.4 GB of frames; free space, shorten the "
             "run with --until, or pass --ignore-space, as this is a prediction");
 }
 

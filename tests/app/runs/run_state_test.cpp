@@ -53,7 +53,7 @@ const BadNumber bad_numbers[] = {
     {"vertex", [](SeriesRow& r) { r.nearest.vertices[1] = 0xffffffff; }, "vertex 4294967295; expected one below 3"},
     {"vertex_by_one", [](SeriesRow& r) { r.deepest.vertices[0] = 3; }, "vertex 3; expected one below 3"},
     {"vertex_twice", [](SeriesRow& r) { r.nearest.vertices[0] = r.nearest.vertices[1]; }, "names a vertex twice"},
-    {"pair", [](SeriesRow& r) { r.nearest.pair = FeaturePair::edge_edge; }, "a pair of features that 2D has not"},
+    {"pair", [](SeriesRow& r) { r.nearest.pair = FeaturePair::edge_edge; }, "a pair of features that 2D does not have"},
     {"layer", [](SeriesRow& r) { r.deepest.layer = std::uint64_t{1} << 32; }, "layer 4294967296; expected"},
     {"layer_nearer", [](SeriesRow& r) { r.nearest.layer = r.deepest.layer + 1; }, "deeper than the deepest"},
     {"layer_none", [](SeriesRow& r) { r.nearest = {}; }, "a deepest layer or a nearest one, not both"},
@@ -176,7 +176,8 @@ TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
     std::string message;
   };
   const std::vector<Bad> all{
-      {[](Anchor& a) { a.kind = FeaturePair::vertex_face; }, "an anchor between a pair of features that 2D has not"},
+      {[](Anchor& a) { a.kind = FeaturePair::vertex_face; },
+       "an anchor between a pair of features that 2D does not have"},
       {[](Anchor& a) { a.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
       {[](Anchor& a) { a.vertices[2] = 0; }, "an anchor that names a vertex twice"},
       {[](Anchor& a) { a.weights[1] = not_a_number; }, "an anchor with the weight nan; expected one from -1 to 1"},

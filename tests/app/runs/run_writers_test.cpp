@@ -77,7 +77,7 @@ TEST_F(Writers, TheLoserIsToldWhoHasTheFolder) {
     const Process process = simulate(run_path("whole"), how);
     EXPECT_EQ(process.exit_code, 3);
     EXPECT_NE(process.err.find("-o " + run_path("whole") + ": is being written by process " +
-                               std::to_string(::getpid()) + "; expected another folder"),
+                               std::to_string(::getpid()) + "; choose another folder"),
               std::string::npos)
         << process.err;
   }

@@ -175,7 +175,7 @@ TEST_F(Series, Refuses) {
   SeriesFile file(path, program());
   file.add("a", "1", values);
   EXPECT_THROW(file.add("a", "1", values), std::logic_error) << "the name is not new";
-  EXPECT_THROW(file.add("a/b", "1", values), std::logic_error) << "an array is no group";
+  EXPECT_THROW(file.add("a/b", "1", values), std::logic_error) << "an array is not a group";
   EXPECT_THROW(file.add("c", "1", values, {2, 2}), std::logic_error);
   EXPECT_THROW(SeriesFile(folder / "absent/series.h5", program()), std::system_error);
 }
@@ -324,7 +324,7 @@ TEST_F(Series, AStreamThatIsNoneIsRefused) {
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_TRUE(said_of(folder, whole.substr(0, size)).starts_with("3 the stream: ")) << size;
   }
-  EXPECT_TRUE(has(said_of(folder, whole + "x"), "3 the stream: goes on behind its end"));
+  EXPECT_TRUE(has(said_of(folder, whole + "x"), "3 the stream: continues after its end"));
   const auto refused = [&](const auto& append, const std::string& problem) {
     std::string stream = open;
     append(stream);

@@ -274,7 +274,7 @@ TEST_F(Simulate, WindowsThatTheLogKnowsAreMissed) {
     const Process process = run_noli({command, run_path("run")});
     EXPECT_EQ(process.exit_code, 3) << process.out;
     EXPECT_NE(process.err.find("trajectory.blocks: windows are missing: it has "), std::string::npos) << process.err;
-    EXPECT_NE(process.err.find(", the log tells of 25"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find(", the log lists 25"), std::string::npos) << process.err;
   }
   EXPECT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run_path("run"), "--resume"}).exit_code, 0);
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["steps"], 25);

@@ -134,7 +134,7 @@ TEST_F(Reproduce, LeastDistancesAreDecidedToo) {
   const std::string run = frames_of(two_cloths());
   EXPECT_EQ(json_of({"verify", run, "--reproduce", "--min-distance", "1e-9"}, 0)["verdict"], "no_contact");
   EXPECT_TRUE(says(json_of({"verify", run, "--reproduce", "--min-distance", "1e-9"}, 0)["proof"]["not_checked"],
-                   "recorded frames alone"));
+                   "recorded only frames"));
   EXPECT_NE(json_of({"verify", run, "--reproduce", "--min-distance", "0.5"}, 1)["verdict"], "no_contact");
 }
 
@@ -143,7 +143,7 @@ TEST_F(Reproduce, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_EQ(run_noli({"verify", run, "--scene-folder", run}).exit_code, 3);
   const Process proof = run_noli({"verify", run, "--reproduce", "--proof", run_path("proof")});
   EXPECT_EQ(proof.exit_code, 3);
-  EXPECT_TRUE(says(proof.err, "--proof: is about world lines in a file")) << proof.err;
+  EXPECT_TRUE(says(proof.err, "--proof: needs world lines in a file")) << proof.err;
   const std::string mesh = folder.write("mesh.ply", two_triangles(1));
   EXPECT_TRUE(says(run_noli({"verify", mesh, mesh, "--reproduce"}).err, "--reproduce: is for a run")) << mesh;
 }

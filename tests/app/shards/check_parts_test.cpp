@@ -237,7 +237,7 @@ TEST_F(JoinedAnswers, ReachAsFarAsWasAsked) {
   for (const Words& open : {Words{"--steps", "4.."}, Words{"--require", "steps=4.."}}) {
     const Process process = check(joined(of_claim, open));
     EXPECT_EQ(process.exit_code, 3);
-    EXPECT_NE(process.err.find("8 steps are asked for, and the proof has 6"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("8 steps are asked for, but the proof has 6"), std::string::npos) << process.err;
   }
   const auto more = [](Json& json) { json["asked"]["steps"] = "4.."; };
   ask("e", {"--steps", "4..6"});

@@ -238,7 +238,7 @@ TEST_F(RunShards, OfAQuestionThatIsRefusedLeaveNothing) {
     return joined({"verify", run_path(), "--shard", "1/1", "-o", shards()}, more);
   };
   EXPECT_NE(refusal(asked({})).find("pass --reproduce"), std::string::npos);
-  EXPECT_NE(refusal(asked({"--static"})).find("are for frames"), std::string::npos);
+  EXPECT_NE(refusal(asked({"--static"})).find("apply to frames only"), std::string::npos);
   EXPECT_NE(refusal(asked({"--reproduce"})).find("expected --no-check"), std::string::npos);
   fs::remove_all(run_path());
   WildRun(2, 3, 5).write(run_path(), 0);

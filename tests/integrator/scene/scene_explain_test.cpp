@@ -234,9 +234,10 @@ TEST(Explain, ResonancesAreNamed) {
   EXPECT_EQ(e.resonances[0].vertices, 1u);
   EXPECT_EQ(e.resonances[0].vertex, 1u);
   ASSERT_EQ(notes(e).size(), e.warnings.size() + 1);
-  EXPECT_TRUE(notes(e).back().starts_with("edge_spring with step 2.7 s kicks the oscillation"));
+  EXPECT_TRUE(notes(e).back().starts_with("edge_spring with step 2.7 s resonates with the oscillation"));
   EXPECT_NE(
-      to_text(e).find("Resonance: edge_spring with step 2.7 s kicks the oscillation of edge_spring with step 0.27 s"),
+      to_text(e).find(
+          "Resonance: edge_spring with step 2.7 s resonates with the oscillation of edge_spring with step 0.27 s"),
       std::string::npos);
 }
 

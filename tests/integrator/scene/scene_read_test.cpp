@@ -229,7 +229,7 @@ TEST(ReadScene, ThePlaneHasCurvesAndDegreesOnly) {
   EXPECT_EQ(problem_of(rotated(R"({"axis": [0, 1]})")),
             "s.json: /bodies/0/transform/rotate: expected the field \"degrees\", as the scene has dimension 2");
   EXPECT_EQ(problem_of(rotated(R"({"degrees": 30, "axis": [0, 1]})")),
-            "s.json: /bodies/0/transform/rotate/axis: expected \"degrees\" alone, as the scene has dimension 2");
+            "s.json: /bodies/0/transform/rotate/axis: expected only \"degrees\", as the scene has dimension 2");
 }
 
 TEST(ShortForm, PutsItsValuesInPlace) {

@@ -38,7 +38,7 @@ bool is_array_name(const fs::path& path) {
 ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<std::string>& keys)
     : StoredFrames(files) {
   if (extension_of(files[0]) == ".npz") {
-    if (files.size() > 1) throw InputError(files[1].string(), "", "expected one .npz file alone");
+    if (files.size() > 1) throw InputError(files[1].string(), "", "expected only one .npz file");
     add_npz(files[0]);
   } else {
     for (std::size_t i = 0; i < files.size(); ++i) add_npy(files[i], i);
@@ -48,7 +48,7 @@ ArrayFrames::ArrayFrames(const std::vector<fs::path>& files, const std::vector<s
   if (archive_ && keys.empty()) {
     if (!archive_->others().empty()) {
       throw InputError(where, "",
-                       fmt::format("has the member {}, which is no .npy; --keys POSITIONS,FACES leaves it out",
+                       fmt::format("has the member {}, which is not an .npy; --keys POSITIONS,FACES leaves it out",
                                    in_quotes(archive_->others()[0])));
     }
     require_others_whole();
@@ -83,7 +83,7 @@ void ArrayFrames::add_npz(const fs::path& file) {
 
 void ArrayFrames::add_npy(const fs::path& file, std::size_t number) {
   if (extension_of(file) != ".npy") {
-    throw InputError(file.string(), "", "is no .npy file; expected all arrays in such files, or one .npz");
+    throw InputError(file.string(), "", "is not an .npy file; expected all arrays in such files, or one .npz");
   }
   require_regular_file(file);
   StoredArray array{file.stem().string(), file.string(), number, {}, "", {}};

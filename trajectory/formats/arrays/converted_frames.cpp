@@ -24,7 +24,7 @@ ConvertedFrames::ConvertedFrames(const std::vector<std::filesystem::path>& files
   std::string mesh;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!is_hdf5_name(files[i])) {
-      throw InputError(files[i].string(), "", "is no HDF5 by its name, and files before it are; expected one kind");
+      throw InputError(files[i].string(), "", "is not HDF5 by its name, but files before it are; expected one kind");
     }
     const FrameConverter::Look look = converter_->look(files[i], rule_);
     FrameFacts& facts = facts_of(i);

@@ -74,7 +74,7 @@ class HeaderText {
   }
   void expect(char c) {
     if (!skip(c))
-      fail(fmt::format("the header is no dictionary of three keys; expected '{}' before {}", c, in_quotes(rest_)));
+      fail(fmt::format("the header is not a dictionary of three keys; expected '{}' before {}", c, in_quotes(rest_)));
   }
   std::string quoted() {
     skip_blanks();
@@ -211,7 +211,7 @@ std::optional<NpyHeader> read_npy_header(ByteStream& bytes, const std::string& n
   const std::size_t got = bytes.read_all(begin.data(), 8);
   if (got == 0) return std::nullopt;
   if (got < 8 || std::string_view(begin.data(), magic.size()) != magic) {
-    throw InputError(name, "", "is no array of numpy: it does not begin with \\x93NUMPY");
+    throw InputError(name, "", "is not an array of numpy: it does not begin with \\x93NUMPY");
   }
   const auto version = static_cast<unsigned char>(begin[6]), minor = static_cast<unsigned char>(begin[7]);
   if (version < 1 || version > 3 || minor != 0) {
@@ -264,7 +264,7 @@ void read_numbers(ByteStream& bytes, const NpyHeader& header, const std::string&
 
 void require_end(ByteStream& bytes, const std::string& name) {
   char more = 0;
-  if (bytes.read(&more, 1) > 0) throw InputError(name, "", "goes on behind its numbers");
+  if (bytes.read(&more, 1) > 0) throw InputError(name, "", "continues after its numbers");
 }
 
 void skip_numbers(ByteStream& bytes, const NpyHeader& header, const std::string& name, std::uint64_t count) {

@@ -47,7 +47,7 @@ class Member : public ByteStream {
 
  private:
   [[noreturn]] void fail() const {
-    throw InputError(name_, "", "is damaged: it cannot be inflated, or its length or its sum is wrong");
+    throw InputError(name_, "", "is damaged: it cannot be inflated, or its length or checksum is wrong");
   }
   /// libzip compares the sum where it finds the end.
   void compare() {

@@ -122,13 +122,13 @@ VtkXml::VtkXml(std::string_view bytes, std::string file, std::span<const std::st
       document_.load_buffer(xml.data(), xml.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
   if (!result)
     throw InputError(file_, byte_place(static_cast<std::size_t>(result.offset)),
-                     std::string("is no XML: ") + result.description());
+                     std::string("is not XML: ") + result.description());
   const pugi::xml_node root = document_.child("VTKFile");
   const std::string type = root.attribute("type").value();
   if (!root || std::ranges::find(types, type) == types.end()) {
     throw InputError(
         file_, "",
-        fmt::format("is no VTKFile of type {}{}", types.front(), root ? ", but of type " + in_quotes(type) : ""));
+        fmt::format("is not a VTKFile of type {}{}", types.front(), root ? ", but of type " + in_quotes(type) : ""));
   }
   big_endian_ = std::string_view(root.attribute("byte_order").value()) == "BigEndian";
   long_headers_ = std::string_view(root.attribute("header_type").value()) == "UInt64";
@@ -167,7 +167,7 @@ std::string_view VtkXml::text_of(const pugi::xml_node& array) const {
     const bool key = part.type() == pugi::node_element && std::string_view(part.name()) == "InformationKey";
     if (key || part.type() == pugi::node_comment) continue;
     if (part.type() != pugi::node_pcdata || !text.empty()) {
-      fail(array, "has more than one text in it; expected numbers alone");
+      fail(array, "has more than one text in it; expected only numbers");
     }
     text = part.value();
   }
@@ -268,7 +268,7 @@ std::vector<Number> VtkXml::converted(const pugi::xml_node& array) const {
   std::vector<Number> result;
   const std::string bytes = bytes_of(array);
   if (bytes.size() % sizeof(From) != 0)
-    fail(array, fmt::format("has {} bytes, no multiple of {}", bytes.size(), sizeof(From)));
+    fail(array, fmt::format("has {} bytes, not a multiple of {}", bytes.size(), sizeof(From)));
   result.reserve(bytes.size() / sizeof(From));
   for (std::size_t at = 0; at < bytes.size(); at += sizeof(From)) {
     if (at % (std::size_t{1} << 16) == 0) end_if_stopped();
