@@ -28,7 +28,7 @@ class Window:
         At its end [m], [m/s].
     energies : dict
         At its end [J]: "kinetic", "potential" by kind of force, and "total", their sum. Of the window [J]: the works
-        "damping_work", "held_work" and "restitution_work", and "integration", what finite steps did.
+        "damping_work", "held_work" and "restitution_work", and "integration", the error of finite steps.
     momentum, angular_momentum : list of 3
         [N s], [N m s]
     frames : list of (time, (vertices, 3) float64)

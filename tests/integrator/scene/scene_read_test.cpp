@@ -163,9 +163,8 @@ INSTANTIATE_TEST_SUITE_P(
             "/bodies/0/transform/rotate/axis: expected a vector that is not zero"},
         Bad{"/bodies/0/spin", "3", "/bodies/0/spin: expected 3 numbers, as the scene has dimension 3, found 3"},
         Bad{"/bodies/0/patches", "[{\"stiffness_factor\": 2}]",
-            "/bodies/0/patches/0: expected the field \"box\" (all that is in it at the start, its faces included: "
-            "lowest "
-            "corner, highest corner)"},
+            "/bodies/0/patches/0: expected the field \"box\" (everything in it at the start, including its faces: "
+            "lowest corner, highest corner)"},
         Bad{"/scripts", "[{\"body\": \"bdy0\", \"path\": [{\"t\": 0, \"move\": [0,0,0]}]}]",
             "/scripts/0/body: no body has the name \"bdy0\"; the nearest is \"body0\""},
         Bad{"/scripts", "[{\"body\": \"body0\"}]",
