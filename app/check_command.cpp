@@ -227,7 +227,7 @@ ExitCode run(CheckArguments& arguments) {
   const bool folder = arguments.files.size() == 1 && fs::is_directory(arguments.files[0]);
   const bool has_bodies = arguments.bodies.any();
   if (has_bodies && (folder || arguments.files.size() != 1))
-    throw UsageError("--body: expected one proof in addition to the bodies");
+    throw UsageError("--body: expected one proof besides the bodies");
   if (!folder && !has_bodies && arguments.files.size() < 2) {
     throw UsageError("expected the folder of a run, or a proof and what it is about");
   }

@@ -325,7 +325,7 @@ Command add_report(CLI::App& app) {
   command->add_option("--title", arguments->title, "Its heading")->type_name("TEXT");
   add_order_option(*command, arguments->order);
   add_keys_option(*command, arguments->reading.keys);
-  command->add_option("--fps", arguments->limits.fps, "At most this many frames per second of simulated time")
+  command->add_option("--fps", arguments->limits.fps, "At most this many frames per simulated second")
       ->check(is_positive())
       ->check(is_rate())
       ->capture_default_str();

@@ -170,7 +170,7 @@ Command add_audit_self(CLI::App& audit) {
       ->check(CLI::ExistingDirectory)
       ->capture_default_str()
       ->type_name("DIR");
-  command->add_option("--program", arguments->program, "Run this `noli` instead of the current one")
+  command->add_option("--program", arguments->program, "Run this `noli` program instead")
       ->check(CLI::ExistingFile)
       ->type_name("NOLI");
   command->add_option("--out", arguments->out, "Folder for findings, created for the first one")

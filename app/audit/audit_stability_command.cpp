@@ -210,7 +210,7 @@ Command add_audit_stability(CLI::App& audit) {
   command->add_option("--point-limit", arguments->point_limit, "A run that takes longer ends undecided: 500ms, 20s, 1m")
       ->capture_default_str()
       ->type_name("TIME");
-  command->add_option("--program", arguments->program, "Run this `noli` instead of the current one")
+  command->add_option("--program", arguments->program, "Run this `noli` program instead")
       ->check(CLI::ExistingFile)
       ->type_name("NOLI");
   command->add_option("--out", arguments->out, "Folder for the input of findings, created for the first one")

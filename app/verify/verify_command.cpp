@@ -111,8 +111,8 @@ ShardWork shard_work(const VerifyArguments& arguments) {
   const VerdictOutputs& outputs = arguments.outputs;
   if (outputs.results.json || outputs.junit || outputs.claim_out || outputs.github || arguments.request.proof) {
     throw UsageError(
-        "--json, --junit, --claim-out, --github, --proof: are about all steps; expected them with `noli merge`, not "
-        "with --shard");
+        "--json, --junit, --claim-out, --github, --proof: are about all steps; pass them to `noli merge`, not with "
+        "--shard");
   }
   const ShardNumber shard = parse_shard(arguments.shard);
   return {.folder = *arguments.shards, .number = shard.number, .of = shard.of};

@@ -191,7 +191,7 @@ void append_findings(const AuditOutcome& outcome, const LibraryAudit& audit, std
     if (file.counts.leaks > 0) {
       fmt::format_to(out, "{}: leak: {:.1f} bytes a query\n", place, file.growth_per_query);
     }
-    if (!file.complete) fmt::format_to(out, "{}: not every query was asked\n", place);
+    if (!file.complete) fmt::format_to(out, "{}: some were not asked\n", place);
   }
 }
 

@@ -100,7 +100,7 @@ class NotSaved {
 
   /// Throws WriteError if something was not saved.
   void require_nothing() const {
-    if (why_) throw WriteError("not everything that was found is saved: " + *why_);
+    if (why_) throw WriteError("not all findings were saved: " + *why_);
   }
 
  private:

@@ -150,7 +150,7 @@ class SelfAudit {
     const auto found = json.find(key);
     const std::uint64_t number = found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
     if (number == 0) {
-      fail(p, fmt::format("it says that all is well, but counts no {}", key));
+      fail(p, fmt::format("it reports success, but no {}", key));
       return false;
     }
     p.figures[key] = number;
@@ -209,7 +209,7 @@ class SelfAudit {
     const bool there = ::access((options_.program.parent_path() / checker.name).c_str(), X_OK) == 0;
     if (there) return present_.push_back(checker);
     part("proofs", checker.name, [&](SelfPart& p) {
-      const std::string words = std::string(checker.name) + " was not found beside noli";
+      const std::string words = std::string(checker.name) + " not found beside noli";
       if (*checker.option == '\0') return fail(p, words);
       skip(p, words + ": it is built where there is Coq");
     });

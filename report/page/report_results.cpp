@@ -306,7 +306,7 @@ class Verified {
   /// What is never folded, because it limits what the verdict says.
   std::vector<std::string> caveats() const {
     std::vector<std::string> lines;
-    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not everything that was asked for was decided.");
+    if (!result_.at("complete").get<bool>()) lines.emplace_back("Not everything asked for was decided.");
     if (settled() || result_.at("first").is_null()) return lines;
     lines.push_back(
         fmt::format("This covers only what was settled so far{}: there may be more contacts, and earlier ones.",

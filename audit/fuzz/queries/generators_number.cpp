@@ -92,8 +92,8 @@ std::vector<QueryFamily> families_of_number() {
       {"scales", "exponents: 1e-323 to 1e300, other ones on each axis, subnormal coordinates", every_type(),
        every_answer, scales},
       {"far_away", "cancellation: offsets of 1e12 to 1e13", every_type(), every_answer, far_away},
-      {"one_ulp", "answers that hang on the last bit: the next double to an exact contact", every_type(), every_answer,
-       one_ulp},
+      {"one_ulp", "answers that depend on the last bit: the double next to an exact contact", every_type(),
+       every_answer, one_ulp},
       {"rounded", "contacts lost or kept by rounding to single precision", every_type(), every_answer, rounded},
   };
 }

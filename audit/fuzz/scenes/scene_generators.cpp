@@ -259,7 +259,7 @@ constexpr std::array<SceneGenerator, 12> generators = {{
     {"thin", "layers of contact down to 2^-40 of a body", thin},
     {"far_off", "everything up to 2^44 sizes off the origin", far_off},
     {"scaled", "bodies from 2^-300 to 2^300 m", scaled},
-    {"sliver", "triangles up to 2^30 times longer than broad", sliver},
+    {"sliver", "triangles up to 2^30 times longer than wide", sliver},
     {"long_steps", "steps just below and above the limit of stability", long_steps},
     {"few_layers", "contact that may not have the layers it needs", few_layers},
     {"no_contact_forces", "a run that has to end at the first contact", no_contact_forces},

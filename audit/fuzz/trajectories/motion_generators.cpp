@@ -236,7 +236,7 @@ GeneratedMotion soup(Random& random) {
 constexpr std::array<MotionGenerator, 17> generators = {{
     {"planted", "one contact at a known time, place and kind, in any of several steps", planted},
     {"near_miss", "features that pass each other, or stop, one unit from contact, and turn back", near_miss},
-    {"tunnel", "bodies that are through each other within a step: an even number of crossings", tunnel},
+    {"tunnel", "bodies that pass through each other within a step: an even number of crossings", tunnel},
     {"border", "contact at the border between two steps and at no other time", border},
     {"begin_only", "contact at the first time of all and at no other time", begin_only},
     {"at_rest", "single frames, touching or a unit apart", at_rest},
@@ -244,7 +244,7 @@ constexpr std::array<MotionGenerator, 17> generators = {{
     {"crowd", "the search: a contact or a near miss beside up to forty cells that nothing meets", crowd},
     {"scaled", "subnormal and huge coordinates, a scale of its own for each axis", scaled},
     {"offset", "coordinates whose last bit is the unit", offset},
-    {"pierced", "cells through each other from beginning to end, of which no two features ever meet", pierced},
+    {"pierced", "cells that intersect all the time, although no two of their features ever meet", pierced},
     {"hinge", "neighbours that share an edge or a vertex and fold onto each other", hinge},
     {"query", "the generators of `noli fuzz queries`, as loose cells", query},
     {"soup", "anything on a small grid: shared, repeated, degenerate, several contacts at once", soup},

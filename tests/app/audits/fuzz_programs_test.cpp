@@ -307,7 +307,7 @@ TEST(FuzzProofsCommand, SaysWhatCannotBeSavedAndBlamesNobody) {
   const Arguments words = {"fuzz", "proofs", proof, a, b, "--count", "20", "--verified-every", "1", "--out", out};
   const Process process = run_noli(words, faulty);
   EXPECT_EQ(process.exit_code, 4);
-  EXPECT_TRUE(process.err.starts_with("noli: error: not all that was found is saved: ")) << process.err;
+  EXPECT_TRUE(process.err.starts_with("noli: error: not all findings were saved: ")) << process.err;
   EXPECT_NE(process.out.find("; not saved"), std::string::npos) << process.out;
 }
 
