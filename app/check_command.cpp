@@ -277,7 +277,7 @@ Command add_check(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   command
       ->add_option("files", arguments->files,
-                   "A proof, then PLY or OBJ files or a run; a run alone; with --join, answers")
+                   "A proof, then PLY or OBJ files or a run; only a run; with --join, answers")
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN | ANSWERS");
   command

@@ -68,7 +68,7 @@ std::vector<OutputFile> outputs_of(const RepairArguments& arguments) {
                                      std::pair("--proof", request.proof ? request.proof->string() : "-")}) {
     if (path == "-" || !is_of_repaired(path, request.pattern)) continue;
     throw UsageError(
-        fmt::format("{} {}: is a frame of -o, or written beside them; expected another name", option, path));
+        fmt::format("{} {}: is a frame of -o, or written next to them; expected another name", option, path));
   }
   return files;
 }

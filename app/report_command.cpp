@@ -305,8 +305,7 @@ ExitCode run(const ReportArguments& arguments) {
   report::Answer answer("written");
   answer.place = fmt::format("{}  {} frames, {} bytes", on_one_line(arguments.output.string()),
                              scene.is_null() ? 0 : scene["frames"].get<std::uint64_t>(), html.size());
-  if (report.lacks_motion())
-    answer.next = "name the frames or the run beside the result, and the page shows the motion.";
+  if (report.lacks_motion()) answer.next = "name the frames or the run with the result, and the page shows the motion.";
   write_words(answer);
   return ExitCode::holds;
 }

@@ -276,8 +276,8 @@ Answer simulate_answer(const Json& json, const SimulateRequest& request, const S
         "it.\n";
   }
   answer.details += fmt::format(
-      "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying "
-      "beside it; {:.0f} MB.\n",
+      "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying in "
+      "parallel; {:.0f} MB.\n",
       outcome.seconds, outcome.simulating_seconds,
       rate(static_cast<double>(outcome.events), outcome.simulating_seconds), outcome.breakpoints,
       outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);

@@ -169,7 +169,7 @@ report::Answer precision_answer(const PrecisionOutcome& outcome) {
                         digits17(outcome.difference->time));
   }
   const bool in_order = outcome.windows_in_order() == outcome.energies.size();
-  text += fmt::format("Double against so many bits, in {} windows{}:\n", outcome.windows_in_order(),
+  text += fmt::format("Double against other precisions, in {} windows{}:\n", outcome.windows_in_order(),
                       in_order ? "" : ", which end before a layer acts in one run only");
   text += table_of_runs(outcome) + order_text(outcome) + energy_text(outcome);
   if (outcome.ended)

@@ -110,7 +110,7 @@ void check_layers(const SeriesRow& row, const RunWindow& window, const RunScene&
 std::uint64_t ticks_of(const StepHistogram& steps, std::uint64_t expected) {
   std::uint64_t sum = 0;
   for (const auto& bin : steps.bins) {
-    require(bin.ticks <= expected - sum, "more than {} ticks in its bins; expected so many", expected);
+    require(bin.ticks <= expected - sum, "more than {} ticks in its bins; expected this many", expected);
     sum += bin.ticks;
   }
   return sum;
