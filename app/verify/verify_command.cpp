@@ -29,7 +29,7 @@ constexpr const char* verify_footer =
     "coordinates are taken as they are. A separate checker then checks the proof. The last line is the "
     "verdict:\n"
     "  proved      the checker accepted the proof: nothing touches            exit 0\n"
-    "  no_contact  decided exactly, not checked (--no-check, or see the note)  exit 0\n"
+    "  no_contact  decided exactly, not checked (--no-check, or see note)     exit 0\n"
     "  contact     something touches; the line names step, time and features  exit 1\n"
     "  too_near    with --min-distance: something comes nearer than that      exit 1\n"
     "  undecided   a limit was reached, or the work was interrupted           exit 2\n"
