@@ -125,7 +125,7 @@ TEST_F(Frames, CheckAndAuditAskForTheOrderToo) {
   EXPECT_EQ(natural["inputs"][0]["file"], time[9]);
   EXPECT_TRUE(has_note(natural, "2 of 2 changed places"));
   EXPECT_TRUE(has_note(json_of(with(audit, {time[10], time[9], "--order", "given"}), 0), "against their numbers"));
-  refused({"audit", "ccd", "--library", plugin("noli"), "--order", "given", "q.csv"}, "are for --frames");
+  refused({"audit", "ccd", "--library", plugin("noli"), "--order", "given", "q.csv"}, "apply to --frames only");
 }
 
 TEST_F(Frames, OrderIsOneOfTwoWords) {
