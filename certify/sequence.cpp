@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <noli/contact.h>
 #include "certify/verification.h"
 #include "proofs/prover/cells/baseline.h"
 #include "proofs/prover/chain.h"
@@ -76,23 +75,21 @@ StepResult SequenceVerifier::decide(std::span<const Position> x_t0, std::span<co
   take_back(x_t0);
   const std::uint64_t steps_before = steps_;
   const bool meeting_before = meeting_at_end_;
-  // What the chain before this one found is not known here.
-  const bool any_at_begin = starts_chain(steps_) ? steps_ > 0 : meeting_at_end_;
-  const bool none_at_begin = steps_ > options_.first_step && !meeting_at_end_;
   if (starts_chain(steps_)) {
     windows_.reset();
     chain_.reset();
   }
   VerifyOptions options = step_options();
+  // What was found before the first step that is given is not known here.
+  options.after_step = !options_.at_rest && (steps_ == options_.first_step ? steps_ > 0 : meeting_at_end_);
   options.prove = prove && !baseline_;
   options.receiver = receiver;
   options.chain = &chain_;
   options.progress = options_.progress;
   VerifyResult found = verify_between(x_t0, x_t1, options);
   ++steps_;
-  meeting_at_end_ = !options_.at_rest && found.contact_count() > 0;
+  meeting_at_end_ = found.contact_count() + found.going_on > 0;
   StepResult result = result_of(std::move(found), x_t0, x_t1);
-  result.goes_on = any_at_begin && meeting_at_end_ && drop_met_at_begin(x_t0, x_t1, none_at_begin, result);
   if (result.touches() && !result.rests) {
     rejected_ = Rejected{{x_t0.begin(), x_t0.end()}, steps_before, meeting_before};
   }
@@ -115,8 +112,7 @@ StepResult SequenceVerifier::part_of_step(std::span<const Position> x_t0, std::s
 
 StepResult SequenceVerifier::result_of(VerifyResult found, std::span<const Position> x_t0,
                                        std::span<const Position> x_t1) const {
-  StepResult result{
-      std::move(static_cast<Findings&>(found)), {}, false, std::move(found.proof), found.receiver_has_proof};
+  StepResult result{std::move(static_cast<Findings&>(found)), {}, std::move(found.proof), found.receiver_has_proof};
   result.rests = std::ranges::equal(x_t0, x_t1);
   if (found.first) result.first = first_in_step(*found.first, query_of(*found.first, options_.dimension, x_t0, x_t1));
   return result;
@@ -140,19 +136,6 @@ VerifyResult SequenceVerifier::verify_between(std::span<const Position> x_t0, st
   std::optional<FeatureContact> first;
   if (found.first) first = found.first->contact;
   return {std::move(static_cast<Findings&>(found)), first, nullptr};
-}
-
-bool SequenceVerifier::drop_met_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none,
-                                         StepResult& result) {
-  const auto find = [&](std::span<const Position> to, std::size_t reports) -> Findings {
-    VerifyOptions options = step_options();
-    options.first_only = options.first_only && reports > 0;
-    options.max_reports = reports;
-    return verify_between(x_t0, to, options);
-  };
-  return drop_contacts_at_begin(
-      result, none, options_.dimension, x_t0, options_.max_reports, [&] { return find(x_t0, 0); },
-      [&](std::size_t most) { return find(x_t1, most); });
 }
 
 }  // namespace noli

@@ -3,36 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include <noli/contact.h>
 #include <noli/errors.h>
 #include <noli/time_of_impact.h>
 #include "certify/decided_steps.h"
+#include "proofs/prover/windows/window_verifier.h"
 
 namespace noli {
-namespace {
-
-/// Removes the pairs that meet at the beginning of a step. `resting`: the findings with all vertices at rest at x,
-/// without reports.
-void drop_met_before(Findings& found, const Findings& resting, int dimension, std::span<const Position> x) {
-  found.complete = found.complete && resting.complete;
-  found.stages += resting.stages;
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    // Incomplete counts are lower bounds, and the difference must be one too.
-    const std::uint64_t before = resting.complete ? resting.contacts[i] : found.contacts[i];
-    found.contacts[i] -= std::min(found.contacts[i], before);
-  }
-  std::erase_if(found.reports, [&](const FeatureContact& contact) {
-    return !resting.complete ||
-           visit(query_of(contact, dimension, x, x), [](const auto& query) { return meet(query); });
-  });
-}
-
-}  // namespace
 
 AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
                   std::span<const Position> x_t1) {
@@ -50,18 +30,10 @@ FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query) 
   return {contact, found->kind, found->time.lower()};
 }
 
-bool drop_contacts_at_begin(Findings& found, bool none, int dimension, std::span<const Position> x, std::size_t most,
-                            const std::function<Findings()>& resting,
-                            const std::function<Findings(std::size_t)>& again) {
-  const Findings met = resting();
-  if (none && !met.complete) return false;
-  if (met.contact_count() > 0 && found.reports.size() == most) {
-    Findings more = again(most + met.contact_count());
-    if (more.complete) found.reports = std::move(more.reports);
-  }
-  drop_met_before(found, met, dimension, x);
-  if (found.reports.size() > most) found.reports.resize(most);
-  return met.contact_count() > 0;
+StepResult step_of_window(WindowResult window) {
+  StepResult step{std::move(static_cast<Findings&>(window)), {}, nullptr};
+  if (window.first) step.first = FirstInStep{window.first->contact, window.first->kind, window.first->lower()};
+  return step;
 }
 
 void end_if_stopped(const VerifyRequest& request) {
@@ -70,14 +42,12 @@ void end_if_stopped(const VerifyRequest& request) {
   throw Stopped(outcome.interrupted ? StopReason::interrupted : StopReason::out_of_time, "");
 }
 
-void Verification::add(const Findings& found, std::optional<ListedContact> first, bool goes_on,
-                       const ContactList::Exactly& exactly) {
+void Verification::add(const Findings& found, std::optional<ListedContact> first, const ContactList::Exactly& exactly) {
   const std::size_t step = outcome_.steps.size() + 1;
   if (first) first->step = step;
   if (!outcome_.first) outcome_.first = first;
-  if (goes_on) first.reset();  // it may be a contact that goes on
   listed_.add(step, first, found.reports, exactly, [this] { return stopped(); });
-  outcome_.steps.push_back({found.contacts, found.initial_intersections, goes_on,
+  outcome_.steps.push_back({found.contacts, found.initial_intersections, found.going_on > 0,
                             first ? std::make_shared<ListedContact>(std::move(*first)) : nullptr});
   for (std::size_t i = 0; i < outcome_.contacts.size(); ++i) outcome_.contacts[i] += found.contacts[i];
   outcome_.initial_intersections += found.initial_intersections;

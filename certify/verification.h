@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -19,6 +18,7 @@ namespace noli {
 
 class RunReader;
 struct RunScene;
+struct WindowResult;
 
 /// The features of a contact, moving from x_t0 to x_t1.
 AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const Position> x_t0,
@@ -27,15 +27,8 @@ AnyQuery query_of(const FeatureContact& contact, int dimension, std::span<const 
 /// Kind and time of a contact that was found; `query`: its features.
 FirstInStep first_in_step(const FeatureContact& contact, const AnyQuery& query);
 
-/// Drops the pairs that meet at the beginning of a step, where vertices are at x: they met at the end of the step
-/// before, and were counted there. They are the pairs that meet when everything rests at x. Returns whether there are
-/// any.
-/// `resting()`: all findings with everything at rest, without reports. `again(n)`: those of the step, with n reports;
-/// called where the dropped ones have taken places in the list of `most`. `none`: the steps before show that no pair
-/// meets at the beginning. If the search is stopped, all contacts then stay.
-bool drop_contacts_at_begin(Findings& found, bool none, int dimension, std::span<const Position> x, std::size_t most,
-                            const std::function<Findings()>& resting,
-                            const std::function<Findings(std::size_t)>& again);
+/// The result of a window, without the exact form of its first time.
+StepResult step_of_window(WindowResult window);
 
 /// How many contacts each step is to list: one at least, of which a witness may be made.
 inline std::size_t reports_of_step(const VerifyRequest& request) {
@@ -66,10 +59,8 @@ class Verification {
   /// any more.
   bool doubtful() const { return outcome_.touches() || outcome_.near; }
 
-  /// Adds the findings of the next step. `first`: its first contact. `goes_on`: contacts of the step before go on, and
-  /// are not counted again.
-  void add(const Findings& found, std::optional<ListedContact> first, bool goes_on,
-           const ContactList::Exactly& exactly);
+  /// Adds the findings of the next step. `first`: its first contact.
+  void add(const Findings& found, std::optional<ListedContact> first, const ContactList::Exactly& exactly);
   /// Lists contacts with their cells and bodies. Call it when all steps have been added.
   void list_contacts(const Mesh& mesh, const BodyNames& names);
 

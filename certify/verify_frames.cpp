@@ -154,7 +154,7 @@ class SequenceVerification : private Verification {
         break;
       }
       if (result.rests) note_rest(step);
-      add(result, std::nullopt, result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
+      add(result, std::nullopt, [this](const FeatureContact& contact) { return exactly(contact); });
       tell("verify", static_cast<double>(step + 1) / static_cast<double>(outcome_.steps_total));
     }
     if (stopped() || outcome_.steps.size() == outcome_.steps_total) return false;
@@ -338,7 +338,7 @@ class SequenceVerification : private Verification {
     if (request_.decisions != nullptr) request_.decisions->push_back(without_proof(result));
     outcome_.complete = result.complete;
     if (result.rests) note_rest(sequence_.step());
-    add(result, first_of(result), result.goes_on, [this](const FeatureContact& contact) { return exactly(contact); });
+    add(result, first_of(result), [this](const FeatureContact& contact) { return exactly(contact); });
     if (request_.open_proof && (result.complete || result.touches())) prove(result);
   }
 

@@ -264,15 +264,15 @@ class RunVerification : private Verification {
   StepResult decide(const RunWindow& window) {
     if (!verifier_) group_cells(window);
     WindowOptions deciding = options();
+    // What was found before the first window that is decided here is not known.
+    deciding.after_step = outcome_.steps.empty() ? window.index > 0 : meeting_at_end_;
     deciding.progress = [this](double share) {
       const double done = static_cast<double>(outcome_.steps.size()) + share;
       tell("verify", std::min(1.0, done / static_cast<double>(std::max<std::size_t>(outcome_.steps_total, 1))));
     };
     WindowResult result = verifier_->verify(*window.lines, deciding);
-    const bool goes_on = drop_met_at_begin(window, result);
-    std::optional<FirstInStep> first;
-    if (result.first) first = FirstInStep{result.first->contact, result.first->kind, result.first->lower()};
-    return {std::move(static_cast<Findings&>(result)), first, goes_on, nullptr, false};
+    meeting_at_end_ = result.contact_count() + result.going_on > 0;
+    return step_of_window(std::move(result));
   }
 
   void add_window(const RunWindow& window, const StepResult& result) {
@@ -281,7 +281,7 @@ class RunVerification : private Verification {
     };
     std::optional<ListedContact> first;
     if (result.first) first = listed(result.first->contact, result.first->kind, result.first->time);
-    add(result, first, result.goes_on, [&](const FeatureContact& contact) {
+    add(result, first, [&](const FeatureContact& contact) {
       const FirstInWindow found = ExactlyInWindow{&*window.lines, outcome_.dimension}(contact);
       return listed(found.contact, found.kind, found.lower());
     });
@@ -324,26 +324,6 @@ class RunVerification : private Verification {
     lines_->append_window({window.index, *window.lines, window.velocities, window.state, {}});
     window.group_hash = lines_->open_window_hash();
     lines_->commit();
-  }
-
-  /// Drops the pairs that were counted in the window before. Returns whether there are any. What that window found does
-  /// not count at the beginning of a task, which may be decided by itself.
-  bool drop_met_at_begin(const RunWindow& window, WindowResult& result) {
-    const bool any = starts_chain(window.index) ? window.index > 0 : meeting_at_end_;
-    const bool none = !outcome_.steps.empty() && !meeting_at_end_;
-    meeting_at_end_ = result.contact_count() > 0;
-    if (!any || !meeting_at_end_) return false;
-    const std::vector<Position> x = beginning_of(*window.lines);
-    const auto find = [&](const WorldLines& lines, std::size_t reports) -> Findings {
-      WindowOptions options = this->options();
-      options.first_only = options.first_only && reports > 0;
-      options.max_reports = reports;
-      return verifier_->verify(lines, options);
-    };
-    return drop_contacts_at_begin(
-        result, none, outcome_.dimension, x, options().max_reports,
-        [&] { return find(WorldLines::from_frames(x, x), 0); },
-        [&](std::size_t most) { return find(*window.lines, most); });
   }
 
   void conclude() {

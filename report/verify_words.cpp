@@ -131,9 +131,10 @@ class Words {
   }
 
   std::string how_it_begins(const StepCounts& step) const {
-    if (!step.first) return step.goes_on ? "in addition to contacts that go on" : "";
-    return fmt::format("t = {}{}  {}, {}", digits4(step.first->time), request_.run ? " s" : "",
-                       pair_in_short(*step.first), name(step.first->kind));
+    const std::string others = step.goes_on ? "in addition to contacts that go on" : "";
+    if (!step.first) return others;
+    return fmt::format("t = {}{}  {}, {}{}{}", digits4(step.first->time), request_.run ? " s" : "",
+                       pair_in_short(*step.first), name(step.first->kind), others.empty() ? "" : ", ", others);
   }
 
   /// How wide UTF-8 is on a terminal, for names without wide letters.

@@ -97,7 +97,7 @@ Json step_json(const StepResult& result) {
           {"obligations", result.obligations},
           {"cell_pairs", result.cell_pairs},
           {"first", result.first ? first_as_json(*result.first) : Json()},
-          {"goes_on", result.goes_on},
+          {"going_on", result.going_on},
           {"rests", result.rests}};
 }
 
@@ -116,7 +116,7 @@ StepResult step_of_json(const Json& json, const Mesh& mesh, StepTimes times) {
   result.obligations = whole(json.at("obligations"));
   result.cell_pairs = whole(json.at("cell_pairs"));
   if (!json.at("first").is_null()) result.first = first_of(json.at("first"), mesh, times);
-  result.goes_on = json.at("goes_on").get<bool>();
+  result.going_on = whole(json.at("going_on"));
   result.rests = json.at("rests").get<bool>();
   if (result.reports.size() > result.contact_count() || result.initial_reports.size() > result.initial_intersections) {
     throw std::invalid_argument("more contacts are listed than there are");

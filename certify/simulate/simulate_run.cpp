@@ -33,6 +33,7 @@
 #include "certify/simulate/start_check.h"
 #include "certify/simulate/window_integrator.h"
 #include "certify/stopwatch.h"
+#include "certify/verification.h"
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/explain.h"
 #include "integrator/scene/read_scene.h"
@@ -56,13 +57,6 @@ template <int Dim>
 struct Candidate : IntegratedWindow<Dim> {
   std::future<WindowResult> verdict;
 };
-
-/// The result of a refused window, without the exact form of its first time.
-StepResult as_step(WindowResult window) {
-  StepResult step{std::move(static_cast<Findings&>(window)), {}, false, nullptr};
-  if (window.first) step.first = FirstInStep{window.first->contact, window.first->kind, window.first->lower()};
-  return step;
-}
 
 /// The parts of a scene that the run's files contain.
 template <int Dim>
@@ -355,7 +349,7 @@ class CertifiedRun {
           listed_in_window(result.first->contact, result.first->kind, result.first->lower(), *window.lines, Dim))};
       name_owners(built_.model.mesh, names_, first);
     }
-    outcome_.contact = as_step(std::move(result));
+    outcome_.contact = step_of_window(std::move(result));
     return Settled::yes;
   }
 

@@ -79,6 +79,9 @@ struct Findings {
   StageCounters stages;           ///< which stage decided each pair of features that reached the kernel
   std::uint64_t obligations = 0;  ///< obligations closed by a direction
   std::uint64_t cell_pairs = 0;   ///< pairs of cells taken apart into features
+  /// Pairs of features that meet at the beginning and were counted in the step before. They are not among `contacts`
+  /// and `reports`.
+  std::uint64_t going_on = 0;
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }
   bool touches() const { return contact_count() + initial_intersections > 0; }

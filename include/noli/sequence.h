@@ -56,8 +56,9 @@ struct SequenceOptions {
   const Exclusions* exclusions = nullptr;  ///< pairs of groups that are not compared; must outlive the verifier
   /// Pairs of cells that intersect in the first frame are not compared: see SequenceVerifier::baseline().
   bool only_new = false;
-  /// Of all steps of the motion, the number of the first one that is given. Only with 0 are initial intersections
-  /// looked for; with `only_new`, call baseline() first.
+  /// Of all steps of the motion, the number of the first one that is given. With 0, initial intersections are looked
+  /// for; otherwise pairs that meet in the first frame that is given were counted in the step before. With `only_new`,
+  /// call baseline() first.
   std::uint64_t first_step = 0;
   const std::atomic<bool>* stop = nullptr;  ///< polled; when it becomes true the step is not complete
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
@@ -75,7 +76,6 @@ struct FirstInStep {
 /// Initial intersections are those of the first frame, or of each one at rest.
 struct StepResult : Findings {
   std::optional<FirstInStep> first;
-  bool goes_on = false;  ///< features met at the beginning of the step: they were counted before, and may be `first`
   std::shared_ptr<const StepProof> proof;  ///< as in VerifyResult; nothing with exclusions or only_new
   bool receiver_has_proof = false;         ///< as in VerifyResult
   bool rests = false;                      ///< between two frames: they are equal
@@ -116,7 +116,7 @@ class SequenceVerifier {
   StepResult part_of_step(std::span<const Position> x_t0, std::span<const Position> x_t1, const StepPart& part,
                           bool prove);
 
-  /// For Noli itself: the options of the prover for a step. `progress` is not among them.
+  /// For Noli itself: the options of the prover for any step, without `after_step`, `chain` and `progress`.
   VerifyOptions step_options() const;
 
  private:
@@ -133,7 +133,6 @@ class SequenceVerifier {
   VerifyResult verify_between(std::span<const Position> x_t0, std::span<const Position> x_t1,
                               const VerifyOptions& options);
   StepResult result_of(VerifyResult found, std::span<const Position> x_t0, std::span<const Position> x_t1) const;
-  bool drop_met_at_begin(std::span<const Position> x_t0, std::span<const Position> x_t1, bool none, StepResult& result);
 
   Mesh mesh_;
   SequenceOptions options_;

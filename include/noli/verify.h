@@ -151,9 +151,8 @@ struct ListedNear {
 struct StepCounts {
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;
-  /// Features meet at the beginning of the step and were counted in the step before. `first` is then unknown.
-  bool goes_on = false;
-  /// Of its contacts, unless some go on. Few steps have one, so it takes memory of its own, which copies share.
+  bool goes_on = false;  ///< features meet at the beginning of the step, and were counted in the step before
+  /// Of its contacts. Few steps have one, so it takes memory of its own, which copies share.
   std::shared_ptr<ListedContact> first;
 
   std::uint64_t contact_count() const { return contacts[0] + contacts[1] + contacts[2] + contacts[3]; }

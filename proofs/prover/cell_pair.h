@@ -32,7 +32,8 @@ namespace noli {
 
 /// What to look for, besides pairs of features of different cells.
 struct CellOptions {
-  bool initial = true;  ///< as in VerifyOptions
+  bool initial = true;      ///< as in VerifyOptions
+  bool after_step = false;  ///< as in VerifyOptions
   bool strict = false;
   const Baseline* baseline = nullptr;  ///< as in VerifyOptions
 };
@@ -313,7 +314,7 @@ class CellPairs {
       if (counted_here(todo, a, b, positions_.leftovers())) examine(first_of(todo, a, b), resistance.begin);
     }
     if constexpr (Out::on) {
-      if (!tally_.found_any()) open_.push_back({tokens_.place(), &progress.a, &progress.b, parts.a, parts.b});
+      if (!tally_.something_meets()) open_.push_back({tokens_.place(), &progress.a, &progress.b, parts.a, parts.b});
     }
     if (&progress.a == &progress.b || !options_.initial || progress.meets_at_begin) return;
     progress.meets_at_begin = !resistance.apart_at_begin &&
@@ -400,7 +401,21 @@ class CellPairs {
 
   void examine(const FeatureQuestion<Dim>& question, double begin) {
     const auto enclosure = positions_.meet(question, begin, tally_);
-    if (enclosure && !is_known(question)) tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
+    if (!enclosure || is_known(question)) return;
+    if (options_.after_step && enclosure->begin <= positions_.begin_time() && met_before(question)) {
+      ++tally_.going_on;
+    } else {
+      tally_.add_contact(canonical(question.pair, question.vertices(), *enclosure));
+    }
+  }
+
+  /// Whether features meet at the beginning of the step.
+  bool met_before(FeatureQuestion<Dim> question) const {
+    const Moving a = positions_.at_begin(static_cast<const Moving&>(*question.first_cell));
+    const Moving b = positions_.at_begin(static_cast<const Moving&>(*question.second_cell));
+    question.first_cell = &a;
+    question.second_cell = &b;
+    return meet_at_begin(question);
   }
 
   CellOptions options_;

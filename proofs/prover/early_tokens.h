@@ -37,8 +37,8 @@ class EarlyTokens {
   void task_done(std::size_t task) {
     const auto& outcome = walk_.outcome(task);
     std::unique_lock lock(mutex_);
-    final_[task] = outcome.finished && outcome.out.open.empty() && !outcome.tally.found_any();
-    if (outcome.tally.found_any()) found_ = true;
+    final_[task] = outcome.finished && outcome.out.open.empty() && !outcome.tally.something_meets();
+    if (outcome.tally.something_meets()) found_ = true;
     if (++tasks_ended_ < final_.size() / 16) return;
     if (passing_) return;  // that thread looks again before it stops
     passing_ = true;

@@ -202,30 +202,37 @@ auto with_pair(FeaturePair pair, int dimension, const Ask& ask) {
   return ask.template operator()<vertex_vertex, 3>();
 }
 
-/// The kernel's query for a pair of features.
+/// The kernel's query for a pair of features, which move until `end` of the step: 1, or 0 if they rest.
 template <FeaturePair Pair, int Dim>
-Query<Pair, Dim> query_of(const FeatureQuestion<Dim>& question) {
+Query<Pair, Dim> query_of(const FeatureQuestion<Dim>& question, int end) {
   Query<Pair, Dim> query;
   for (std::size_t i = 0; i < query.size; ++i) {
     const bool in_first = i < first_size(Pair);
     const MovingCell<Dim>& cell = in_first ? *question.first_cell : *question.second_cell;
     const int corner = in_first ? question.first.corners[i] : question.second.corners[i - first_size(Pair)];
     query.x_t0[i] = cell.position(0, corner);
-    query.x_t1[i] = cell.position(1, corner);
+    query.x_t1[i] = cell.position(end, corner);
   }
   return query;
 }
 
-/// The kernel's answer for a pair of features.
+/// The kernel's answer for a pair of features; `end` as above.
 template <int Dim>
-std::optional<TimeEnclosure> ask(const FeatureQuestion<Dim>& question, StageCounters& stages) {
+std::optional<TimeEnclosure> ask(const FeatureQuestion<Dim>& question, StageCounters& stages, int end = 1) {
+  using enum FeaturePair;
   if constexpr (Dim == 3) {
-    if (question.pair == FeaturePair::vertex_face)
-      return contact(query_of<FeaturePair::vertex_face>(question), &stages);
-    if (question.pair == FeaturePair::edge_edge) return contact(query_of<FeaturePair::edge_edge>(question), &stages);
+    if (question.pair == vertex_face) return contact(query_of<vertex_face>(question, end), &stages);
+    if (question.pair == edge_edge) return contact(query_of<edge_edge>(question, end), &stages);
   }
-  if (question.pair == FeaturePair::vertex_edge) return contact(query_of<FeaturePair::vertex_edge>(question), &stages);
-  return contact(query_of<FeaturePair::vertex_vertex>(question), &stages);
+  if (question.pair == vertex_edge) return contact(query_of<vertex_edge>(question, end), &stages);
+  return contact(query_of<vertex_vertex>(question, end), &stages);
+}
+
+/// Whether two features meet where their cells are at the beginning. No stage is counted for it.
+template <int Dim>
+bool meet_at_begin(const FeatureQuestion<Dim>& question) {
+  StageCounters none;
+  return ask(question, none, 0).has_value();
 }
 
 }  // namespace noli

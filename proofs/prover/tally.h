@@ -55,6 +55,7 @@ struct TallyWith {
 
   std::array<std::uint64_t, all_feature_pairs.size()> contacts{};
   std::uint64_t initial_intersections = 0;
+  std::uint64_t going_on = 0;  ///< as in Findings
   Least<FeatureContact, canonical_less> reports;
   Least<InitialIntersection, initial_less> initial_reports;
   First earliest;
@@ -64,13 +65,17 @@ struct TallyWith {
 
   /// Moves the reports out.
   Findings findings(bool complete) {
-    return {complete,    contacts,  initial_intersections, reports.take(), initial_reports.take(), stages,
-            obligations, cell_pairs};
+    return {complete,   contacts, initial_intersections, reports.take(), initial_reports.take(), stages, obligations,
+            cell_pairs, going_on};
   }
 
+  /// Whether there is anything to report.
   bool found_any() const {
     return initial_intersections > 0 || std::any_of(contacts.begin(), contacts.end(), [](auto n) { return n > 0; });
   }
+
+  /// Whether there is no proof, because something meets.
+  bool something_meets() const { return found_any() || going_on > 0; }
 
   void add_contact(const FeatureContact& contact) {
     ++contacts[static_cast<std::size_t>(contact.pair)];
@@ -86,6 +91,7 @@ struct TallyWith {
   TallyWith& operator+=(const TallyWith& other) {
     for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i] += other.contacts[i];
     initial_intersections += other.initial_intersections;
+    going_on += other.going_on;
     reports.add(other.reports);
     initial_reports.add(other.initial_reports);
     earliest.add(other.earliest);

@@ -58,8 +58,7 @@ class Traversal {
         stop_(stop),
         tally_(tally),
         tokens_(out.tokens),
-        cell_pairs_({options.initial && positions.from_the_beginning(), options.strict, options.baseline}, positions_,
-                    tally, out) {}
+        cell_pairs_(about_cells(options, positions), positions_, tally, out) {}
 
   /// From now on defers obligations about at most `grain` cells to the list.
   void defer(std::uint32_t grain, std::vector<Deferred>& list) {
@@ -80,6 +79,12 @@ class Traversal {
   }
 
  private:
+  /// What cells are looked at for. Of a window, only the first span begins where the window does.
+  static CellOptions about_cells(const VerifyOptions& options, const Positions& positions) {
+    const bool begins = positions.from_the_beginning();
+    return {options.initial && begins, options.after_step && begins, options.strict, options.baseline};
+  }
+
   /// The number of pairs of groups between two checks of the clock.
   static constexpr unsigned patience = 4096;
   /// Each of at most 32 levels leaves two obligations on the stack when a self is split, and three when a pair is.

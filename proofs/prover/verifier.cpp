@@ -91,7 +91,7 @@ class Verification {
     VerifyResult result{sum.tally.findings(sum.finished), std::nullopt, nullptr};
     if (const auto first = sum.tally.earliest.first()) result.first = first->contact;
     if constexpr (Out::on) {
-      if (result.complete && !result.touches()) {
+      if (result.complete && !sum.tally.something_meets()) {
         result.proof = prove(walk, first_kept);
         result.complete = result.proof != nullptr || !stop_.raised();
         if (result.proof && options_.receiver != nullptr) pass_on(result);

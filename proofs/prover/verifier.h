@@ -76,9 +76,12 @@ class ProofReceiver {
 };
 
 struct VerifyOptions {
-  int dimension = 3;        ///< 2 or 3; in 2 the third coordinate is ignored
-  int threads = 0;          ///< 0: all there are
-  bool initial = true;      ///< look for intersections at the beginning of the step
+  int dimension = 3;    ///< 2 or 3; in 2 the third coordinate is ignored
+  int threads = 0;      ///< 0: all there are
+  bool initial = true;  ///< look for intersections at the beginning of the step
+  /// A step came before, and counted the pairs of features that meet at the beginning of this one: they are counted in
+  /// `going_on` alone.
+  bool after_step = false;
   bool first_only = false;  ///< stop at any contact or initial intersection, deterministically chosen
   bool strict = false;      ///< also compare the vertex-disjoint features of one cell (a face that degenerates)
   std::size_t max_reports =
@@ -106,16 +109,16 @@ struct StepProof {
 struct VerifyResult : Findings {
   /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
-  /// Set if `prove` was set, the step, or the part, is complete, and nothing touches in it; unless parts come so near
-  /// each other that no proof was found. Not set if a receiver took the proof.
+  /// Set if `prove` was set, the step, or the part, is complete, and nothing meets in it, nor goes on; unless parts come
+  /// so near each other that no proof was found. Not set if a receiver took the proof.
   std::shared_ptr<const StepProof> proof;
   bool receiver_has_proof = false;  ///< the receiver took the whole proof
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
 /// below that, and there are fewer than 2^31 cells. Deterministic: the result depends only on the input and on
-/// `dimension`, `initial`, `first_only`, `strict`, `max_reports`, `part` (unless stopped by `stop` or `deadline`), not
-/// on the number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change
+/// `dimension`, `initial`, `after_step`, `first_only`, `strict`, `max_reports`, `part`, `chain` (unless stopped by `stop`
+/// or `deadline`), not on the number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change
 /// `obligations`, `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws
 /// std::bad_alloc, and what `progress` and `receiver` throw.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,

@@ -205,7 +205,7 @@ TEST_F(Verify, ListsNewContactsBesideThoseThatGoOn) {
   EXPECT_EQ(json["per_step"][0]["goes_on"], false);
   EXPECT_EQ(json["per_step"][0]["first_time"], 1.0);
   EXPECT_EQ(json["per_step"][1]["goes_on"], true);
-  EXPECT_TRUE(json["per_step"][1]["first_time"].is_null());
+  EXPECT_EQ(json["per_step"][1]["first_time"], 0.5);
   EXPECT_EQ(json["per_step"][1]["contacts"]["vertex_face"], 1);
   ASSERT_EQ(json["reports"]["contacts"].size(), 2U);
   EXPECT_EQ(json["reports"]["contacts"][1]["step"], 2);

@@ -84,6 +84,38 @@ TEST(Sequence, WhatMetAtTheEndOfAStepIsNotCountedAgain) {
   EXPECT_TRUE(leaves->reports.empty());
 }
 
+/// The triangle of triangle_and_point(), a point that rests on it, and another one that falls.
+TEST(Sequence, TheFirstOfAStepIsNoneThatGoesOn) {
+  Mesh mesh = triangle_and_point();
+  mesh.points.push_back(4);
+  mesh.vertex_count = 5;
+  const auto frame = [](double z) {
+    std::vector<Position> x = point_at(0);
+    x.push_back({0.5, 0.5, z});
+    return x;
+  };
+  const Exclusions none;
+  for (const int how : {0, 1, 2}) {
+    SCOPED_TRACE(how);
+    SequenceOptions options;
+    options.first_only = how == 1;
+    options.exclusions = how == 2 ? &none : nullptr;
+    SequenceVerifier verifier(mesh, options);
+    EXPECT_EQ(verifier.step(frame(1), frame(0.5)).contact_count(), 1U);
+    const StepResult rests = verifier.step(frame(0.5), frame(0.25), true);
+    EXPECT_TRUE(rests.complete);
+    EXPECT_FALSE(rests.proof) << "a point rests on the triangle";
+    EXPECT_EQ(rests.contact_count(), 0U);
+    EXPECT_EQ(rests.going_on, 1U);
+    EXPECT_FALSE(rests.first);
+    const StepResult falls = verifier.step(frame(0.25), frame(-0.75));
+    EXPECT_EQ(falls.contact_count(), 1U);
+    ASSERT_TRUE(falls.first);
+    EXPECT_EQ(falls.first->time, 0.25);
+    EXPECT_EQ(falls.first->contact.vertices[0], 4U);
+  }
+}
+
 TEST(Sequence, AStepThatTouchesCanBeTriedAgain) {
   SequenceVerifier verifier(triangle_and_point(), {});
   EXPECT_FALSE(verifier.step(point_at(1), point_at(0.5)).touches());
@@ -92,7 +124,7 @@ TEST(Sequence, AStepThatTouchesCanBeTriedAgain) {
   const StepResult shorter = verifier.step(point_at(0.5), point_at(0.25));
   EXPECT_TRUE(shorter.complete);
   EXPECT_FALSE(shorter.touches());
-  EXPECT_FALSE(shorter.goes_on);
+  EXPECT_EQ(shorter.going_on, 0U);
   EXPECT_EQ(verifier.step(point_at(0.25), point_at(-0.25)).contact_count(), 1U);
 }
 

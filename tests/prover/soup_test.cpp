@@ -105,6 +105,42 @@ TEST_P(Soup, IsAnsweredByTheDefinitions) {
   EXPECT_GT(pairs_apart, 0u);
 }
 
+/// With a step before, a pair that meets at t = 0 was counted there.
+TEST_P(Soup, LeavesOutWhatGoesOnByTheDefinitions) {
+  std::size_t go_on = 0, begin = 0;
+  for (std::uint64_t seed = 0; seed < GetParam().seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Step step = random_soup(seed, GetParam().size, GetParam().dimension);
+    VerifyOptions options = options_of(GetParam());
+    options.initial = false;
+    options.after_step = true;
+    const VerifyResult result = verify_step(step.mesh, step.x_t0, step.x_t1, options);
+    std::map<PairKey, int> expected;
+    std::uint64_t met_before = 0;
+    for (const auto& [key, times] : brute_force(step, GetParam().dimension, GetParam().strict).contacts) {
+      if (decide(key, step, GetParam().dimension).time->compare(0) == 0) {
+        met_before += static_cast<std::uint64_t>(times);
+      } else {
+        expected[key] = times;
+      }
+    }
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(reported(result), expected);
+    EXPECT_EQ(result.contact_count(), result.reports.size());
+    EXPECT_EQ(result.going_on, met_before);
+    EXPECT_EQ(result.first.has_value(), !expected.empty());
+    options.prove = true;
+    const VerifyResult proved = verify_step(step.mesh, step.x_t0, step.x_t1, options);
+    EXPECT_EQ(reported(proved), expected);
+    EXPECT_EQ(proved.going_on, met_before);
+    EXPECT_EQ(proved.proof != nullptr, expected.empty() && met_before == 0);
+    go_on += met_before;
+    begin += expected.size();
+  }
+  EXPECT_GT(go_on, 0U);
+  EXPECT_GT(begin, 0U);
+}
+
 /// Whether some pair of cells that is compared has both features, by looking at all of them.
 bool is_compared(const PairKey& key, const Mesh& mesh, bool strict, const std::vector<InitialIntersection>& baseline) {
   const auto has = [&](std::uint32_t cell, std::size_t from, std::size_t to) {

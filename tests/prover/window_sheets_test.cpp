@@ -338,32 +338,50 @@ TEST(WindowSheets, BreakpointsOnTheLineChangeNothing) {
   }
 }
 
-/// A sheet that trembles so much that its chords decide nothing, so time is split.
-TEST(WindowSheets, RestlessVerticesCutTime) {
+/// A sheet that trembles so much that its chords decide nothing, so time is split. From one breakpoint to another, a
+/// vertex of it is out of place.
+Motion trembling(double displacement, int from, int to) {
   const Surface surface = grid(12, 12);
   Random random(8);
-  const auto trembling = [&](double drop) {
-    Motion motion{surface, {}};
-    for (const Position& x : surface.x) {
-      std::vector<Breakpoint> path;
-      for (int i = 0; i <= 64; ++i) {
-        const double side = x[0] == 6 && x[1] == 6 && i == 40 ? drop : 0;
-        path.push_back({i / 64.0, {x[0] + 3 * std::sin(i / 10.0), x[1] + 0.001 * random.unit() - side, x[2]}});
-      }
-      motion.paths.push_back(path);
+  Motion motion{surface, {}};
+  for (const Position& x : surface.x) {
+    std::vector<Breakpoint> path;
+    for (int i = 0; i <= 64; ++i) {
+      const double side = x[0] == 6 && x[1] == 6 && from <= i && i <= to ? displacement : 0;
+      path.push_back({i / 64.0, {x[0] + 3 * std::sin(i / 10.0), x[1] + 0.001 * random.unit() - side, x[2]}});
     }
-    return motion;
-  };
-  const WindowResult calm = with_layout(trembling(0));
+    motion.paths.push_back(path);
+  }
+  return motion;
+}
+
+TEST(WindowSheets, RestlessVerticesCutTime) {
+  const WindowResult calm = with_layout(trembling(0, 40, 40));
   EXPECT_EQ(calm.contact_count(), 0u);
   EXPECT_GT(calm.obligations, 1u);
   EXPECT_LE(calm.obligations, 64u);
   EXPECT_EQ(calm.cell_pairs, 0u);
-  const Motion folding = trembling(1.5);
-  const WindowResult wild = with_layout(folding);
+  const WindowResult wild = with_layout(trembling(1.5, 40, 40));
   EXPECT_GT(wild.contact_count(), 0u);
   EXPECT_GT(wild.first->lower(), 39 / 64.0);
   EXPECT_LT(wild.first->lower(), 40 / 64.0);
+}
+
+/// What meets as a window begins is left out of it, even where it still meets in spans that begin later.
+TEST(WindowSheets, WhatGoesOnIsLeftOutWhereTimeIsCut) {
+  const Motion folded = trembling(1.5, 0, 50);
+  Motion resting = folded;
+  for (auto& path : resting.paths) path = {path.front(), {1, path.front().x}};
+  WindowOptions options = plain();
+  const std::vector<FeatureContact> all = with_layout(folded, options).reports, before = with_layout(resting).reports;
+  options.after_step = true;
+  const WindowResult result = with_layout(folded, options);
+  std::vector<FeatureContact> expected = all;
+  std::erase_if(expected, [&](const FeatureContact& contact) { return std::ranges::count(before, contact) > 0; });
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(result.reports, expected);
+  EXPECT_EQ(result.going_on, before.size());
+  EXPECT_GT(before.size(), 0U);
 }
 
 }  // namespace

@@ -91,6 +91,40 @@ TEST_P(WindowSoup, IsAnsweredByTheDefinitions) {
   EXPECT_GT(pairs_apart, 0u);
 }
 
+/// With a window before, a pair that meets as this one begins was counted there.
+TEST_P(WindowSoup, LeavesOutWhatGoesOnByTheDefinitions) {
+  std::size_t go_on = 0, begin = 0;
+  for (std::uint64_t seed = 0; seed < GetParam().seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Case& c = GetParam();
+    const LineScene scene = random_line_scene(seed, c.size, c.dimension, c.steps);
+    WindowOptions options = options_of(c);
+    options.initial = false;
+    options.after_step = true;
+    const WindowResult result = verify_window(scene.mesh, scene.lines(), options);
+    std::map<PairKey, int> expected = window_truth(scene, c.dimension, c.steps, c.strict).contacts;
+    std::uint64_t met_before = 0;
+    std::erase_if(expected, [&](const auto& counted) {
+      const auto answer = decide(counted.first, unit_step(scene, 0), c.dimension);
+      const bool before = answer.time && answer.time->compare(0) == 0;
+      if (before) met_before += static_cast<std::uint64_t>(counted.second);
+      return before;
+    });
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(reported(result), expected);
+    EXPECT_EQ(result.contact_count(), result.reports.size());
+    EXPECT_EQ(result.going_on, met_before);
+    EXPECT_EQ(result.first.has_value(), !expected.empty());
+    go_on += met_before;
+    begin += expected.size();
+  }
+  EXPECT_GT(go_on + begin, 0U);
+  if (GetParam().name == std::string("everything")) {
+    EXPECT_GT(go_on, 0U);
+    EXPECT_GT(begin, 0U);
+  }
+}
+
 TEST_P(WindowSoup, WithTwoBreakpointsIsAStep) {
   std::size_t contacts = 0;
   for (std::uint64_t seed = 500; seed < 540; ++seed) {

@@ -33,7 +33,9 @@ class Verification {
       sum_ = walk(chords);
     } else if (!settle_halves(window)) {
       sum_ = walk(chords);
-      if (!sum_.finished && !sum_.tally.found_any()) sum_ = std::move(*met_), sum_.finished = false;
+      // What a later span met may go on since the beginning of the window.
+      const bool is_new = !options_.after_step || met_at_once_;
+      if (!sum_.finished && !sum_.tally.found_any() && is_new) sum_ = std::move(*met_), sum_.finished = false;
     }
     return {sum_.tally.findings(sum_.finished), sum_.tally.earliest.first()};
   }
@@ -101,6 +103,7 @@ class Verification {
     WindowOutcome<Dim> outcome = walk(chords);
     if (outcome.tally.found_any()) {
       met_ = std::move(outcome);
+      met_at_once_ = span.begin == lines_.first_time();
       return false;
     }
     sum_.tally += outcome.tally;
@@ -120,6 +123,7 @@ class Verification {
   WindowTally none_;
   WindowOutcome<Dim> sum_;
   std::optional<WindowOutcome<Dim>> met_;  ///< of the span in which something met
+  bool met_at_once_ = false;               ///< that span begins with the window
 };
 
 }  // namespace
