@@ -55,7 +55,7 @@ constexpr const char* check_footer =
     "`mpirun noli check`, or --shard K/N --json OUT anywhere for each K, and then --join with all answers "
     "(docs/scale.md).\n"
     "\n"
-    "Exit codes: 0 what you ask is proved; 1 the motion touches, and a witness shows it; 2 stopped before an "
+    "Exit codes: 0 what you ask is proved; 1 something touches, and a witness shows it; 2 stopped before an "
     "answer (--time-limit, Ctrl-C); 3 anything else.\n"
     "Examples:\n"
     "  noli check proof.noli before.ply after.ply\n"
@@ -229,7 +229,7 @@ ExitCode run(CheckArguments& arguments) {
   if (has_bodies && (folder || arguments.files.size() != 1))
     throw UsageError("--body: expected one proof besides the bodies");
   if (!folder && !has_bodies && arguments.files.size() < 2) {
-    throw UsageError("expected the folder of a run, or a proof and what it is about");
+    throw UsageError("expected a run's folder, or a proof and its frames or run");
   }
   const auto ranks = Ranks::of_this_job();
   const OrderedFrames ordered =

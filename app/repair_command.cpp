@@ -146,7 +146,7 @@ Command add_repair(CLI::App& app) {
   add_order_option(*command, request.order);
   command
       ->add_option("--thickness", request.thickness,
-                   "The gap to aim at; default: a quarter of the least height of cells")
+                   "The gap to aim at; default: a quarter of the smallest cell height")
       ->check(is_positive())
       ->type_name("DISTANCE");
   command

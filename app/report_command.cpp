@@ -213,7 +213,7 @@ class Report {
   }
 
   void put_frames() {
-    if (!verified_) throw UsageError("frames, but no result of noli verify that is about them (--json)");
+    if (!verified_) throw UsageError("frames need their result: noli verify FRAMES --json RESULT.json");
     const report::VerifiedSteps steps = report::verified_steps(verified_->json, verified_->path);
     const auto frames = open_all_frames(inputs_.frames, reading());
     const std::size_t count = frames->count().value_or(0);
@@ -237,7 +237,7 @@ class Report {
       if (!arguments_.reading.keys.empty()) reading.keys = arguments_.reading.keys;
       return reading;
     } catch (const Json::exception&) {
-      throw InputError(verified_->path.string(), "", "is not as `noli verify --json` writes it");
+      throw InputError(verified_->path.string(), "", "is not a result of `noli verify --json`");
     }
   }
 

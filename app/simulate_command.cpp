@@ -39,7 +39,7 @@ constexpr const char* simulate_footer =
     "the first one, the run ends and reports the features, the kind and the exact time; earlier windows stay.\n"
     "\n"
     "An interrupted run (Ctrl-C) continues with --resume, and ends with the same bytes. A run that was stopped while "
-    "its model was built has no folder yet: begin it again. The predicted size is printed before a run begins; too "
+    "building its model has no folder yet: start it again. The predicted size is printed before a run begins; too "
     "little space on the disk is an error (exit 4). Windows count from 1.\n"
     "\n"
     "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), "
@@ -74,7 +74,7 @@ ExitCode reproduce(const SimulateArguments& arguments) {
                      {"expected", hex(outcome.expected)}};
   report::Answer answer(json, {"window", "breakpoints"});
   answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
-                            outcome.same ? "The window of the run" : "Another window than the run has",
+                            outcome.same ? "The window of the run" : "A different window from the run's",
                             hex(outcome.found), on_one_line(request.run.string()));
   output.write("reproduce", answer, json);
   return outcome.same ? ExitCode::holds : ExitCode::refuted;
@@ -133,7 +133,7 @@ Command add_simulate(CLI::App& app) {
   command->add_flag("--past-duration", request.past_duration, "--until may lie beyond the scene's duration")
       ->needs(until);
   command->add_flag("--ignore-space", request.ignore_space,
-                    "Begin even if the disk is too full for the run, by the size that explain predicts");
+                    "Begin even if the predicted run is larger than the free space on the disk");
   auto* const again = command
                           ->add_option("--reproduce", arguments->reproduce,
                                        "Integrate one window of this run again and write its block to the file -o")

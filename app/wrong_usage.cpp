@@ -263,7 +263,7 @@ std::optional<std::string> option_before_command(const CLI::App& app, const CLI:
   const bool before = &app != &command && is_option(arguments.front()) && !known_option(app, arguments.front()) &&
                       known_option(command, arguments.front());
   if (!before) return std::nullopt;
-  return fmt::format("{} comes before the command; put it behind: {} {}", arguments.front(), full_name(command),
+  return fmt::format("{} comes before the command; put it after: {} {}", arguments.front(), full_name(command),
                      arguments.front());
 }
 

@@ -29,7 +29,7 @@ class GroupsReader {
     }
     const bool groups = json.contains("groups");
     require(groups ? json["groups"].is_object() : bodies_.known(), "/groups", "expected an object: names and vertices");
-    require(!groups || !bodies_.known(), "/groups", "expected none: the bodies are the groups");
+    require(!groups || !bodies_.known(), "/groups", "expected no groups: the bodies are the groups");
     require(json.contains("ignore") && json["ignore"].is_array(), "/ignore", "expected an array of pairs of groups");
     groups_.names = {""};
     groups_.exclusions.groups.assign(vertices_, 0);

@@ -511,9 +511,9 @@ class SequenceVerification : private Verification {
     const bool near = outcome_.is_too_near() && outcome_.near->pair.time > 0 && outcome_.near->pair.time < 1;
     if (contact || near) {
       outcome_.notes.emplace_back(
-          contact ? "the first contact is between two frames: straight lines are assumed there; finer frames tell more"
+          contact ? "the first contact is between two frames: straight lines are assumed there; finer frames show more"
                   : "the least distance is broken between two frames: straight lines are assumed there; finer frames "
-                    "tell more");
+                    "show more");
     }
   }
 

@@ -131,7 +131,7 @@ std::string bound_text(const RunExplanation& e) {
 
 std::string cap_text(const RunExplanation& e) {
   if (e.worst.empty() || e.log.most_layers == 0) return "";
-  std::string text = fmt::format("Of {} layers that the scene allows, most acted in:\n", e.log.most_layers);
+  std::string text = fmt::format("The scene allows {} layers; the deepest acted in:\n", e.log.most_layers);
   for (const ActingMoment& m : e.worst) {
     text += fmt::format("  window {}: layer {} ({:.2g} %)\n", m.window, m.action.layer,
                         100 * static_cast<double>(m.action.layer) / e.log.most_layers);

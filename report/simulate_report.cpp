@@ -272,11 +272,11 @@ Answer simulate_answer(const Json& json, const SimulateRequest& request, const S
   }
   if (outcome.series == SeriesEnd::unavailable) {
     text +=
-        "series.h5 was not written: noli_series is not beside noli. Build with NOLI_WITH_HDF5=ON; `--resume` writes "
+        "series.h5 was not written: noli_series is missing. Build with NOLI_WITH_HDF5=ON; `--resume` writes "
         "it.\n";
   }
   answer.details += fmt::format(
-      "Time: {:.2f} s, {:.2f} of integrating ({:.3g} events a second, {} breakpoints), {:.2f} of verifying in "
+      "Time: {:.2f} s, {:.2f} integrating ({:.3g} events a second, {} breakpoints), {:.2f} verifying in "
       "parallel; {:.0f} MB.\n",
       outcome.seconds, outcome.simulating_seconds,
       rate(static_cast<double>(outcome.events), outcome.simulating_seconds), outcome.breakpoints,

@@ -263,7 +263,7 @@ class Words {
       case Verdict::contact: return after_contact();
       case Verdict::undecided: return after_stop();
       case Verdict::too_near: return after_too_near();
-      case Verdict::no_contact: return request_.check ? "" : "without --no-check a separate checker checks the proof.";
+      case Verdict::no_contact: return request_.check ? "" : "drop --no-check to have the proof checked.";
       case Verdict::proved: return after_proof();
     }
     return "";
@@ -319,10 +319,10 @@ class Words {
     const Json stages = work_json(outcome_);
     for (const auto& [key, value] : stages.items()) answer_.details += fmt::format(" {} {}", key, value.dump());
     detail("");
-    detail("Time: {:.3f} s, and {:.3f} s of reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
+    detail("Time: {:.3f} s, plus {:.3f} s reading; {} thread(s); {:.0f} MB.", outcome_.seconds, outcome_.read_seconds,
            threads_used(request_), static_cast<double>(peak_memory_bytes()) / 1e6);
     if (!request_.open_proof) return;
-    detail("Of it, {:.3f} s of making the proof; then {:.3f} s of waiting for the checker.", outcome_.proof_seconds,
+    detail("Of this, {:.3f} s making the proof; then {:.3f} s waiting for the checker.", outcome_.proof_seconds,
            outcome_.check_seconds);
   }
 

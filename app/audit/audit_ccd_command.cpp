@@ -101,7 +101,7 @@ ExitCode run(AuditArguments& arguments) {
 
 Command add_audit_ccd(CLI::App& audit) {
   CLI::App* const command =
-      audit.add_subcommand("ccd", "Compare libraries of continuous collision detection with the truth");
+      audit.add_subcommand("ccd", "Compare continuous collision detection libraries with the truth");
   command->footer(audit_ccd_footer);
   const auto arguments = std::make_shared<AuditArguments>();
   audit::AuditRequest& request = arguments->request;

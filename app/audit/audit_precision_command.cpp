@@ -28,7 +28,7 @@ constexpr const char* precision_footer =
     "Runs a scene in double and, event by event in the same order, in MPFR numbers of other precisions. It reports how "
     "far positions, energies and momenta drift apart, when the order of events would differ, and how much of the "
     "energy error is rounding and how much is truncation. A run with 53 bits and the exponents of double is always "
-    "included; it must yield the bits of double.\n"
+    "included; it must give the same bits as double.\n"
     "\n"
     "Exit codes: 0 they do (same); 1 they do not (differs); 2 not all windows were run (undecided).\n"
     "Examples:\n"

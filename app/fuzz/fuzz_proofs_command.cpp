@@ -182,7 +182,7 @@ audit::MakeCheckers checkers_beside() {
 }
 
 ExitCode run(ProofsArguments& arguments) {
-  if (arguments.files.size() == 1) throw UsageError("expected a proof and what it is about, or neither");
+  if (arguments.files.size() == 1) throw UsageError("expected a proof and its frames or run, or no files");
   const Output output = begin_fuzzing(arguments.common, arguments.files);
   audit::ProofFuzzOptions options;
   set_common(options, arguments.common);

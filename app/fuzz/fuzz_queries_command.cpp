@@ -305,7 +305,7 @@ Command add_fuzz_queries(CLI::App& fuzz) {
   CLI::Option* const smaller =
       command
           ->add_option("--minimise", arguments->minimise,
-                       "Instead, shrink the failing queries of this file, and save them beside it or in --out")
+                       "Instead, shrink the failing queries of this file, and save them next to it or in --out")
           ->type_name("FILE");
   again->excludes(smaller)->excludes(out);
   for (const char* const name :

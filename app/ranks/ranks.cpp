@@ -62,7 +62,7 @@ struct Ranks::Library {
           ranks_in_environment(), on_one_line(::dlerror())));
     }
     find(version, "noli_mpi_version");
-    if (version() != NOLI_MPI_VERSION) throw UsageError("noli_mpi.so is of another version of Noli");
+    if (version() != NOLI_MPI_VERSION) throw UsageError("noli_mpi.so is from another version of Noli");
     find(begin, "noli_mpi_begin");
     find(next, "noli_mpi_next");
     find(close_counter, "noli_mpi_close_counter");
@@ -95,11 +95,11 @@ Ranks::Ranks(std::unique_ptr<Library> library) : library_(std::move(library)) {
   noli_mpi_place place = {};
   const int result = library_->begin(this_program().data(), &place);
   if (result == 1) {
-    throw UsageError("not all ranks are the same program; expected one version and commit of Noli on all machines");
+    throw UsageError("not all ranks run the same program; expected one version and commit of Noli on all machines");
   }
   require(result);
   if (place.size != ranks_in_environment()) {
-    throw UsageError(fmt::format("MPI knows {} ranks and the environment {}: noli_mpi.so was built for another MPI",
+    throw UsageError(fmt::format("MPI has {} ranks, the environment {}: noli_mpi.so was built for another MPI",
                                  place.size, ranks_in_environment()));
   }
   rank_ = place.rank;

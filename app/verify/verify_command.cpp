@@ -210,7 +210,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
   add_threads_option(command, request.threads);
   command
       .add_option("--max-reports", request.max_reports,
-                  "List at most N contacts, shared fairly by the steps; counts do not depend on it")
+                  "List at most N contacts, spread evenly over the steps; counts do not depend on it")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N")

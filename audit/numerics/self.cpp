@@ -51,7 +51,7 @@ struct Stopped {};
 std::string told(const ProgramEnd& run) {
   const std::string words =
       run.out.starts_with("verdict") || run.err.empty() ? first_line(run.out) : first_complaint(run.err);
-  return run.brief() + ": " + (words.empty() ? "it says nothing" : on_one_line(words));
+  return run.brief() + ": " + (words.empty() ? "no output" : on_one_line(words));
 }
 
 std::string milliseconds(nanoseconds time) {
@@ -209,7 +209,7 @@ class SelfAudit {
     const bool there = ::access((options_.program.parent_path() / checker.name).c_str(), X_OK) == 0;
     if (there) return present_.push_back(checker);
     part("proofs", checker.name, [&](SelfPart& p) {
-      const std::string words = std::string(checker.name) + " not found beside noli";
+      const std::string words = std::string(checker.name) + " not found next to noli";
       if (*checker.option == '\0') return fail(p, words);
       skip(p, words + ": it is built where there is Coq");
     });
@@ -228,7 +228,7 @@ class SelfAudit {
     }
     p.figures["steps"] = steps;
     p.figures["checkers"] = present_.size();
-    if (present_.empty()) return fail(p, "there is no checker that could say so");
+    if (present_.empty()) return fail(p, "no checker is installed");
     hold(p);
   }
 

@@ -245,7 +245,7 @@ class Asking {
       }
       const double error = worst == 0 ? 0 : worst / size;
       point_.momentum_error = std::max(point_.momentum_error.value_or(0), error);
-      if (!(error <= most_momentum_error)) broken(kind, fmt::format("{:.2g} of it is lost or won", error));
+      if (!(error <= most_momentum_error)) broken(kind, fmt::format("{:.2g} of it is lost or gained", error));
     }
   }
 

@@ -34,7 +34,7 @@ class Reading {
       : file_(std::move(file)) {
     std::error_code error;
     if (std::filesystem::exists(file_, error) && !std::filesystem::is_regular_file(file_, error)) {
-      throw InputError(file_.string(), "", "is not a regular file; expected one, as HDF5 cannot be read in order");
+      throw InputError(file_.string(), "", "is not a regular file; expected one, as HDF5 needs random access");
     }
     input_.take(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (input_.get() < 0)
@@ -48,7 +48,7 @@ class Reading {
     for (Patience patience(longest_silence); child_ && child_->out.empty() && !child_->silent();) {
       end_if_stopped();
       if (patience.is_over())
-        throw HelperError(fmt::format("noli_series said nothing about {} for too long", file_.string()));
+        throw HelperError(fmt::format("noli_series did not respond in time on {}", file_.string()));
       child_->look(std::chrono::milliseconds(100));
     }
     if (!child_) return 0;
@@ -72,7 +72,7 @@ class Reading {
     child_.reset();
     if (end.kind == ProgramEnd::Kind::stopped) end_if_stopped();
     if (end.kind == ProgramEnd::Kind::signalled && end.code == SIGXCPU) {
-      throw InputError(file_.string(), "", "HDF5 does not finish reading it; it is damaged, or has too many parts");
+      throw InputError(file_.string(), "", "HDF5 took too long to read it; it is damaged, or has too many parts");
     }
     if (end.exited_with(3)) throw InputError(file_.string(), "", first_line(end.err));
     if (!end.exited_with(0)) {

@@ -273,7 +273,7 @@ std::vector<std::string> fields_beyond_default(const Claim& claim) {
 }
 
 std::optional<std::string> difference(const Claim& asked, const Claim& checked, bool refuted) {
-  if (asked.part != checked.part) return "steps: all were asked for, the checker's are a part, or the other way around";
+  if (asked.part != checked.part) return "steps: one claim covers all steps, the other only a part of them";
   const auto one = values(asked), other = values(checked);
   for (std::size_t i = 0; i < one.size(); ++i) {
     const std::string& key = one[i].first;

@@ -143,7 +143,7 @@ void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
     const char* const advice = request_.trajectory || request_.reading.given
                                    ? ""
                                    : "; noli verify --trajectory OUT writes them to a file that checkers read";
-    outcome.notes.push_back(fmt::format("the checker read the frames as noli passed them on{}", advice));
+    outcome.notes.push_back(fmt::format("the checker got the frames from noli, not from files{}", advice));
   }
   outcome.checker = version_of(Checker::plain);
   if (!refuted) outcome.verdict = Verdict::proved;
@@ -172,7 +172,7 @@ void ProofRoute::refuse(const std::string& problem) const {
     }
   }
   throw InputError(request_.decided->scratch().string(), "",
-                   "the shards do not fit together: " + told + "; make them again in a new folder");
+                   "the shards do not match: " + told + "; make them again in a new folder");
 }
 
 /// The checker has looked at the claim that was asked, and at no other.

@@ -92,8 +92,8 @@ std::vector<double> masses_of(const RepairRequest& request, const Mesh& mesh, st
   const auto [least, greatest] = std::ranges::minmax_element(masses);
   if (*greatest > most_ratio * *least) {
     throw InputError(request.masses, "",
-                     fmt::format("masses from {} to {}; expected none above {} times another one, which would take "
-                                 "very short steps: fix what is heavy instead",
+                     fmt::format("masses from {} to {}; expected a ratio of at most {}, as larger ones take "
+                                 "very short steps: fix the heavy vertices instead",
                                  *least, *greatest, most_ratio));
   }
   const double sum = std::accumulate(masses.begin(), masses.end(), 0.0);

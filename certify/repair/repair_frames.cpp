@@ -139,7 +139,7 @@ class Repair {
     if (outcome_.straight_windows > 0) {
       outcome_.notes.push_back(
           fmt::format("--run: {} windows that this call wrote have the straight lines between the new frames, as the "
-                      "motion that was filtered touches once its times are rounded",
+                      "repaired motion touches once its times are rounded",
                       outcome_.straight_windows));
     }
   }

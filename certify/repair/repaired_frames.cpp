@@ -145,7 +145,7 @@ bool RepairedFrames::is_there() const {
   if (read_whole_file(state_) == state_text_) return true;
   if (has_only_begun()) return false;
   throw InputError(state_.string(), "",
-                   "is of a repair of other frames, with other options or by another version; expected the same");
+                   "belongs to a repair with different frames, options or version; expected the same");
 }
 
 /// Whether a repair ended while it wrote its first files. The table is the first of them; with --force, the others may

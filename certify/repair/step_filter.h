@@ -34,8 +34,7 @@ namespace noli {
 
 /// A step whose motion takes more memory than it may.
 struct StepTooLong : std::runtime_error {
-  StepTooLong()
-      : std::runtime_error("its motion has more than 2^26 changes of velocity; other layers may need fewer") {}
+  StepTooLong() : std::runtime_error("its motion has more than 2^26 changes of velocity; try another thickness") {}
 };
 
 /// The motion of one step, over the times [0, 1].

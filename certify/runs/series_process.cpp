@@ -27,7 +27,7 @@ SeriesProcess::SeriesProcess(const SeriesProgram& program, int output)
 
 void SeriesProcess::took_nothing() const {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limits_.time);
-  throw SeriesLost(fmt::format("noli_series took nothing for {} s", seconds.count()));
+  throw SeriesLost(fmt::format("noli_series read nothing for {} s", seconds.count()));
 }
 
 void SeriesProcess::write(std::string_view bytes) {

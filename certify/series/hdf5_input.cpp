@@ -205,7 +205,7 @@ std::string Hdf5Input::text(const std::string& group, const std::string& attribu
   const Attribute text(file_, group, attribute);
   constexpr std::size_t most_letters = 256;
   if (H5Tget_class(*text.type) != H5T_STRING || H5Sget_simple_extent_npoints(*text.space) != 1) {
-    throw BadInput(text.name, "expected a text");
+    throw BadInput(text.name, "expected a string");
   }
   if (H5Tis_variable_str(*text.type) > 0) {
     char* letters = nullptr;

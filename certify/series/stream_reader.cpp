@@ -44,7 +44,7 @@ void StreamReader::read(char* bytes, std::size_t count) {
       const ssize_t got = ::read(descriptor_, buffer_.data(), buffer_.size());
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) end_lost(errno);
-      require(got > 0, "ends before its end");
+      require(got > 0, "ends too early");
       begin_ = 0;
       end_ = static_cast<std::size_t>(got);
     }

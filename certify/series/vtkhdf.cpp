@@ -85,7 +85,7 @@ void VtkHdf::add_topology(const std::string& group, std::size_t column, std::opt
   Topology topology{group, column, type, by_part(file_, group + "/NumberOfCells"),
                     by_part(file_, group + "/NumberOfConnectivityIds")};
   if (topology.cells.size() != points_by_part_.size() || topology.corners.size() != points_by_part_.size()) {
-    throw BadInput(group, "has counts of another number of parts than " + root + "/NumberOfPoints");
+    throw BadInput(group, "has counts for a different number of parts from " + root + "/NumberOfPoints");
   }
   topologies_.push_back(std::move(topology));
 }

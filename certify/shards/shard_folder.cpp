@@ -31,7 +31,7 @@ Json parse_request(const std::string& text, const std::string& name) {
   const auto [version, commit] = reading(name, [&] { return std::pair(word("version"), word("commit")); });
   if (version != version_number() || commit != version_commit()) {
     throw InputError(name, "",
-                     fmt::format("the shards are of Noli {} ({}), and this is {} ({}); expected the same program",
+                     fmt::format("the shards are from Noli {} ({}), this is {} ({}); expected the same version",
                                  version, commit, version_number(), version_commit()));
   }
   return json;

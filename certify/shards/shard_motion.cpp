@@ -29,7 +29,7 @@ void require_files(const VerifyRequest& request) {
   const bool files =
       std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
   if (request.reading.given || !files) {
-    throw UsageError("each part reads its frames by itself; expected regular files, found something else");
+    throw UsageError("each shard opens the frames again; expected regular files, found a pipe or similar");
   }
 }
 
@@ -50,7 +50,7 @@ class Frames : public ShardMotion {
 
   std::uint64_t step_count() override {
     const auto steps = FrameSequence(*frames_, motion_).step_count();
-    if (!steps) throw UsageError("how many frames there are is known at the last one; expected files");
+    if (!steps) throw UsageError("the number of frames is not known in advance; expected files");
     return *steps;
   }
 

@@ -62,7 +62,7 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
   const auto built = integrator::build_model<Dim>(scene);
   if (built.model.x.size() != found.window.positions.size()) {
     throw InputError(request.run.string(), "",
-                     "has another number of vertices than the scene; expected the run's scene");
+                     "has a different number of vertices from the scene; expected the run's scene");
   }
   auto simulation = simulation_at<Dim>(built.model, found.before, found.halvings);
   integrator::Recording<double, Dim> recording;

@@ -233,8 +233,8 @@ class CertifiedRun {
     }
     if (last.time > end_) {
       throw InputError(folder_.path().string(), "",
-                       fmt::format("goes up to {} s, and the windows that are asked for end at {} s; expected a later "
-                                   "time to go on to",
+                       fmt::format("reaches {} s, but the windows asked for end at {} s; expected a later end "
+                                   "time",
                                    last.time, end_));
     }
     writer_.emplace(folder_.path(), reader);

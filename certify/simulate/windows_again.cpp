@@ -68,7 +68,7 @@ class Again : public WindowsAgain {
     }
     const auto here = simulation_->snapshot();
     if (here.x != there.x || here.v != there.v || here.anchors != there.anchors)
-      differs(window, "ends in another state than the run has");
+      differs(window, "ends in a different state from the run");
   }
 
   [[noreturn]] void differs(const RunWindow& window, const std::string& problem) const {
@@ -117,7 +117,7 @@ std::unique_ptr<WindowsAgain> make(const fs::path& run, const RunManifest& manif
   const bool same = model.mesh == expected.mesh && labels_of<Dim>(model) == expected.labels &&
                     exclusions_of<Dim>(model) == expected.exclusions && scene.window == expected.header.window_length;
   if (!same) {
-    throw InputError((run / "scene.json").string(), "", "is of other cells or windows than trajectory.blocks has");
+    throw InputError((run / "scene.json").string(), "", "has different cells or windows from trajectory.blocks");
   }
   return std::make_unique<Again<Dim>>(run, std::move(model), stop);
 }

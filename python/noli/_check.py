@@ -115,7 +115,7 @@ def check(
     proof = os.fspath(proof)
     if frames is None:
         if not os.path.isdir(proof):
-            raise UsageError("expected the folder of a run, or a proof and what it is about")
+            raise UsageError("expected a run's folder, or a proof and its frames or run")
         proof, frames = os.path.join(proof, "proof.blocks"), proof
     if not os.path.exists(proof):
         raise InputError(f"{proof}: does not exist; expected a proof")

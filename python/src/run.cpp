@@ -59,7 +59,7 @@ class RunWindows {
 
   /// A dict, or None behind the last. Not in the child of a fork, which shares the place in the file with its parent.
   py::object next() {
-    if (process_ != ::getpid()) throw UsageError("the run was opened in the process that was forked; open it again");
+    if (process_ != ::getpid()) throw UsageError("the run was opened before a fork; open it again in this process");
     const auto alone = one_at_a_time_.enter();
     std::optional<RunWindow> window;
     in_background([&](Background&) { window = reader_.next_window(); });

@@ -56,7 +56,7 @@ class Simulation {
 
   /// The next window, or None behind the last. Throws what the simulation threw.
   py::object next() {
-    if (!is_of_this_process()) throw UsageError("the simulation goes on in the process that was forked");
+    if (!is_of_this_process()) throw UsageError("the simulation belongs to the parent process");
     const auto alone = one_at_a_time_.enter();
     const Working working(stop_);
     const std::optional<SeriesRow> row = wait_for_row();
@@ -142,7 +142,7 @@ class Simulation {
     while (auto window = reader_->next_window()) {
       if (window->end >= time) return *std::move(window);
     }
-    throw InputError(request_.run.string(), "", "has fewer windows than were committed; expected nobody else to write");
+    throw InputError(request_.run.string(), "", "has fewer windows than were committed; expected no other writer");
   }
 
   SimulateRequest request_;

@@ -95,7 +95,7 @@ TEST_F(Frames, TwelveFramesInTheOrderOfTheShell) {
   EXPECT_EQ(natural["statement"]["order"], "sorted by the numbers in the names (--order natural)");
   EXPECT_EQ(natural["inputs"][2]["file"], folder.path("cloth_2.ply"));
   EXPECT_TRUE(has_note(natural, "10 of 12 changed places"));
-  EXPECT_TRUE(has_note(natural, "straight lines are assumed there; finer frames tell more"));
+  EXPECT_TRUE(has_note(natural, "straight lines are assumed there; finer frames show more"));
   const Json given = json_of(with(verify, {"--order", "given"}), 0);
   EXPECT_EQ(given["verdict"], "proved");
   EXPECT_EQ(given["inputs"][2]["file"], folder.path("cloth_10.ply"));

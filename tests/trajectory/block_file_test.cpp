@@ -158,12 +158,13 @@ std::vector<BadFile> bad_files() {
       {"content", file_header().replace(12, 4, "PROF"), "file: byte 12: is about 'PROF', expected 'TEST'"},
       {"number", group + raw_commit(1, group, {}), "file: byte 45: commit 1 where commit 0 was expected"},
       {"hash", group + raw_commit(0, group + "b", {}),
-       "file: byte 53: the hash does not fit the blocks since the commit before"},
-      {"running", group + raw_commit(0, group, one), "file: byte 85: the running hash does not fit the commits before"},
+       "file: byte 53: the hash does not match the blocks since the last commit"},
+      {"running", group + raw_commit(0, group, one),
+       "file: byte 85: the running hash does not match the earlier commits"},
       {"size", group + raw_block(block_format::commit, short_commit),
        "file: byte 33: a commit of 71 bytes, expected 72"},
       {"damaged", (group + raw_commit(0, group, {})).replace(28, 1, "b"),
-       "file: byte 16: damaged: the checksum of block 'AAAA' does not fit; committed blocks follow, so this is not a "
+       "file: byte 16: damaged: the checksum of block 'AAAA' does not match; committed blocks follow, so this is not a "
        "truncated end"},
   };
 }

@@ -105,11 +105,10 @@ TEST(FrameOrder, AsksWhereANumberMayBeADecimalOrTwo) {
       std::string("frames: t_0.9.ply comes before t_0.10.ply, which is against their numbers if these are decimals "
                   "(0.10 before 0.9)") +
           advice);
-  EXPECT_EQ(
-      order_refusal({"t_0.10.ply", "t_0.9.ply"}),
-      std::string("frames: t_0.10.ply comes before t_0.9.ply, which is their order only if the numbers are decimals "
-                  "(0.10 before 0.9)") +
-          advice);
+  EXPECT_EQ(order_refusal({"t_0.10.ply", "t_0.9.ply"}),
+            std::string("frames: t_0.10.ply comes before t_0.9.ply, which is right only if the numbers are decimals "
+                        "(0.10 before 0.9)") +
+                advice);
   EXPECT_EQ(natural({"t_0.9.ply", "t_0.10.ply"}), (Paths{"t_0.10.ply", "t_0.9.ply"}));
   expect_taken({"t_0.05.ply", "t_0.1.ply", "t_0.15.ply"});  // counters are not padded like 05 and 1
   EXPECT_NE(order_refusal({"t_0.1.ply", "t_0.05.ply"}), "");
@@ -139,7 +138,7 @@ TEST(FrameOrder, NotesGaps) {
             (std::vector<std::string>{"cloth_20.obj to cloth_40.obj: frame 30 is missing",
                                       "cloth_40.obj to cloth_70.obj: frames 50 to 60, by 10, are missing"}));
   EXPECT_EQ(notes(cloth({0, 2, 4, 7})),
-            std::vector<std::string>{"cloth_4.obj to cloth_7.obj: the number grows by 3, and mostly by 2"});
+            std::vector<std::string>{"cloth_4.obj to cloth_7.obj: the number grows by 3 here, usually by 2"});
   EXPECT_EQ(order_frames(cloth({5, 3, 2}), FrameOrder::natural).notes[1],
             "cloth_3.obj to cloth_5.obj: frame 4 is missing");
   EXPECT_TRUE(notes(cloth({0, 10, 20, 30})).empty());

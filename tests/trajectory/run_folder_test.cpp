@@ -70,7 +70,7 @@ const BadManifest bad_manifests[] = {
     {"array", "[1]", "/format: is missing"},
     {"number", "1", "/format: is missing"},
     {"other_format", R"({"format": "something else"})", "/format: expected 'noli run', found 'something else'"},
-    {"format_type", R"({"format": 3})", "/format: expected a text"},
+    {"format_type", R"({"format": 3})", "/format: expected a string"},
     {"later_version", R"({"format": "noli run", "version": 2})", "/version: expected 1, found '2'"},
     {"version_type", R"({"format": "noli run", "version": "1"})", "/version: expected 1, found '\"1\"'"},
     {"no_hash", before_scene + R"("scene": {}})", "/scene/sha256: is missing"},
@@ -82,7 +82,7 @@ const BadManifest bad_manifests[] = {
     {"versions_type", before_scene + R"("versions": [], "scene": {"sha256": ")" + digest + "\"}}",
      "/versions: expected an object"},
     {"version_of_type", before_scene + R"("versions": {"noli": 1}, "scene": {"sha256": ")" + digest + "\"}}",
-     "/versions/noli: expected a text"},
+     "/versions/noli: expected a string"},
 };
 
 class RunManifestErrors : public ::testing::TestWithParam<BadManifest> {};

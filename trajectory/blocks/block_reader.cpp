@@ -21,7 +21,7 @@ std::uint64_t size_of(std::istream& stream, const std::string& name) {
   stream.clear();
   stream.seekg(0, std::ios::end);
   const auto size = static_cast<std::streamoff>(stream.tellg());
-  if (!stream || size < 0) throw InputError(name, "", "cannot be read at any place; expected a regular file");
+  if (!stream || size < 0) throw InputError(name, "", "does not allow random access; expected a regular file");
   return static_cast<std::uint64_t>(size);
 }
 
@@ -103,7 +103,7 @@ std::optional<std::string> BlockReader::read_block(std::uint64_t offset, std::st
   body = read(offset + block_header_size, length + checksum_size);
   const std::string_view payload(body.data(), length);
   if (get<std::uint32_t>(body.data() + length) != crc32c(payload, crc32c(header))) {
-    return fmt::format("damaged: the checksum of block {} does not fit", letters_of(get<FourLetters>(header.data())));
+    return fmt::format("damaged: the checksum of block {} does not match", letters_of(get<FourLetters>(header.data())));
   }
   return std::nullopt;
 }
@@ -139,11 +139,11 @@ void BlockReader::check_commit(const Block& block) {
   require_next_commit(block);
   const Sha256Digest group = hash_.digest();
   if (digest_at(block.payload, 8) != group) {
-    fail(block.payload_offset() + 8, "the hash does not fit the blocks since the commit before");
+    fail(block.payload_offset() + 8, "the hash does not match the blocks since the last commit");
   }
   const Sha256Digest running = next_running_hash(committed_.running, group);
   if (digest_at(block.payload, 40) != running) {
-    fail(block.payload_offset() + 40, "the running hash does not fit the commits before");
+    fail(block.payload_offset() + 40, "the running hash does not match the earlier commits");
   }
   committed_ = {at_, committed_.groups + 1, running, group};
   hash_ = {};

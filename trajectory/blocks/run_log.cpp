@@ -64,7 +64,7 @@ class Scan {
     const std::string_view members = line.substr(0, line.size() - std::min(seal_size, line.size()));
     const std::string_view end = line.substr(members.size());
     if (!end.starts_with(seal_begin)) fail("expected a line that ends in its checksum, \"crc32c\"");
-    if (end != seal(members)) fail("the checksum does not fit");
+    if (end != seal(members)) fail("the checksum does not match");
     const Json entry = Json::parse(std::string(members) + '}', nullptr, false);
     if (!entry.is_object()) fail("expected a JSON object");
     take_(entry);

@@ -37,7 +37,7 @@ const Json& member(const Json& json, const std::string& pointer, const std::stri
 
 std::string text_at(const Json& json, const std::string& pointer, const std::string& file) {
   const Json& value = member(json, pointer, file);
-  if (!value.is_string()) throw InputError(file, pointer, "expected a text");
+  if (!value.is_string()) throw InputError(file, pointer, "expected a string");
   return value.get<std::string>();
 }
 
@@ -94,7 +94,7 @@ RunManifest read_manifest(const std::filesystem::path& folder) {
   const Json& versions = member(json, "/versions", file);
   if (!versions.is_object()) throw InputError(file, "/versions", "expected an object");
   for (const auto& [name, version] : versions.items()) {
-    if (!version.is_string()) throw InputError(file, "/versions/" + name, "expected a text");
+    if (!version.is_string()) throw InputError(file, "/versions/" + name, "expected a string");
     manifest.versions[name] = version.get<std::string>();
   }
   return manifest;

@@ -154,7 +154,7 @@ std::vector<std::string> FrameInputs::notes() const {
     const bool fixed = k <= 0 && coarsest->decimals == static_cast<std::uint64_t>(-k);
     const std::string text = fixed ? fmt::format("text with {} decimal{}", -k, k == -1 ? "" : "s") : coarsest->numbers;
     notes.push_back(fmt::format(
-        "coordinates are {}: the verdict is exact for these numbers; writing them may have decided gaps below {}", text,
+        "coordinates are {}: the verdict is exact for these numbers; their rounding may decide gaps below {}", text,
         half_of(k)));
   }
   if (polygons_ > 0) {

@@ -322,7 +322,7 @@ class Orderer {
     if (!decimal && !integer) return "";
     const Pair& pair = decimal ? *decimal : *integer;
     std::string problem = fmt::format("{} comes before {}", name(pair.before), name(pair.after));
-    if (!decimal) problem += ", which is their order only if the numbers are decimals (0.10 before 0.9)";
+    if (!decimal) problem += ", which is right only if the numbers are decimals (0.10 before 0.9)";
     if (two_ways && !integer) problem += ", which is against their numbers if these are decimals (0.10 before 0.9)";
     return problem;
   }
@@ -363,7 +363,7 @@ class Orderer {
 
   static std::string missing(std::uint64_t low, std::uint64_t high, std::uint64_t stride) {
     if ((high - low) % stride != 0) {
-      return fmt::format("the number grows by {}, and mostly by {}", high - low, stride);
+      return fmt::format("the number grows by {} here, usually by {}", high - low, stride);
     }
     if (high - low == 2 * stride) return fmt::format("frame {} is missing", low + stride);
     const std::string by = stride > 1 ? fmt::format(", by {},", stride) : "";

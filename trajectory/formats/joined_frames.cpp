@@ -73,7 +73,7 @@ void JoinedFrames::append(std::size_t part, const Frame& frame, Frame& all) {
   if (first + frame.mesh.vertex_count > 0xffffffff)
     throw InputError(body.name, "", "is one vertex too many for all bodies");
   if (body.vertices > 0 && (body.vertices != frame.mesh.vertex_count || body.faces != frame.mesh.faces.size())) {
-    throw InputError(body.name, "", "has another mesh than in the frame before");
+    throw InputError(body.name, "", "has a different mesh from the frame before");
   }
   body = {body.name, first, frame.mesh.vertex_count, first_face, frame.mesh.faces.size(), body.still};
   append_mesh(all.mesh, frame.mesh);

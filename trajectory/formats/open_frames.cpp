@@ -31,7 +31,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   }
   const auto dash = std::ranges::find(names, "-");
   if (dash != names.end()) {
-    if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no file beside it");
+    if (names.size() > 1) throw UsageError("-: standard input has all frames; expected no other file");
     return std::make_unique<StreamFrames>(std::make_unique<FileBytes>(::dup(STDIN_FILENO), "standard input"));
   }
   if (names.size() == 1 && !is_frame_name(names[0]) && is_frames_file(names[0])) {
@@ -40,7 +40,7 @@ std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path
   if (!names.empty() && is_hdf5_name(names[0])) {
     if (reading.hdf5 == nullptr) {
       throw InputError(names[0].string(), "",
-                       "is an HDF5 file; expected noli_series beside noli to read it (build with NOLI_WITH_HDF5=ON)");
+                       "is an HDF5 file; noli_series, which reads it, is missing (build with NOLI_WITH_HDF5=ON)");
     }
     return std::make_unique<ConvertedFrames>(names, reading.hdf5, reading.polygons);
   }

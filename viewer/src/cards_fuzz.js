@@ -164,7 +164,7 @@ export const fuzzCards = {
       ["contacts", r.contacts],
       ["candidates", r.candidates],
       mustBeNone("findings", r.findings),
-      ["of them let something through", r.through],
+      ["with tunnelling", r.through],
       ["seed", r.seed],
       ["time [s]", r.timing.seconds],
     ],
@@ -179,7 +179,7 @@ export const fuzzCards = {
     ],
   },
   "noli-fuzz-replay": {
-    title: "An input of a fuzzer again",
+    title: "A fuzzer input, judged again",
     figures: (r) => [mustBeNone("findings", r.findings)],
     body: (r) => [r.reports ? findings(r) : null],
   },

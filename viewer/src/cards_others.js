@@ -217,7 +217,7 @@ export const otherCards = {
     ],
   },
   "noli-ccd": {
-    title: "Queries of collision detection, decided exactly",
+    title: "Collision queries, decided exactly",
     figures: (r) => [
       ["queries", r.queries],
       ["contacts", r.contacts],

@@ -276,10 +276,10 @@ TEST_F(Series, AProgramThatEndsIsNamed) {
 TEST_F(Series, AProgramThatHangsIsEnded) {
   SeriesProgram hangs = script("exec sleep 1000");
   hangs.patience = std::chrono::milliseconds(300);
-  EXPECT_TRUE(has(failure(hangs), "noli_series took nothing for"));
+  EXPECT_TRUE(has(failure(hangs), "noli_series read nothing for"));
   hangs = script("cat >/dev/null; exec sleep 1000");
   hangs.patience = std::chrono::milliseconds(300);
-  EXPECT_TRUE(has(failure(hangs), "noli_series took nothing for"));
+  EXPECT_TRUE(has(failure(hangs), "noli_series read nothing for"));
   expect_nothing_left();
 }
 

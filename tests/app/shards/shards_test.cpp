@@ -426,7 +426,7 @@ TEST_F(SpoiltShards, OneOfAnotherVersionIsNamed) {
   Json request = Json::parse(bytes_of(file));
   request["noli"]["version"] = "0.0.1";
   folder.write("shards/request.json", request.dump(2));
-  expect_refused("the shards are of Noli 0.0.1");
+  expect_refused("the shards are from Noli 0.0.1");
 }
 
 TEST_F(SpoiltShards, AnyLengthIsNoticed) {

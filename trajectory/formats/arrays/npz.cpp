@@ -88,9 +88,9 @@ std::unique_ptr<ByteStream> NpzFile::open(std::size_t number) const {
   const std::string name = fmt::format("{}: {}", name_, on_one_line(member.key));
   constexpr std::uint64_t large = std::uint64_t{1} << 30, most_fold = 200;
   if (member.size > large && member.packed < member.size / most_fold) {
-    throw InputError(name, "",
-                     fmt::format("has {} bytes that were deflated to {}; expected less: store it (np.savez)",
-                                 member.size, member.packed));
+    throw InputError(
+        name, "",
+        fmt::format("has {} bytes, deflated to only {}; store it uncompressed (np.savez)", member.size, member.packed));
   }
   return std::make_unique<Member>(archive_, member, name);
 }

@@ -75,7 +75,7 @@ class VtkMesh {
     for (const pugi::xml_node one : parent.children("DataArray")) {
       if (std::string_view(one.attribute("Name").value()) != name) continue;
       if (array) xml_.fail(array, "is there twice");
-      if (one.attribute("TimeStep")) xml_.fail(one, "is of one of several times; expected one frame a file");
+      if (one.attribute("TimeStep")) xml_.fail(one, "is for one of several times; expected one frame per file");
       array = one;
     }
     if (!array) throw InputError(xml_.file(), parent.name(), fmt::format("has no DataArray {}", in_quotes(name)));
@@ -85,7 +85,7 @@ class VtkMesh {
   void read_points(const pugi::xml_node& piece) {
     const pugi::xml_node array = xml_.only(xml_.only(piece, "Points"), "DataArray");
     if (!array) throw InputError(xml_.file(), "Points", "has no DataArray");
-    if (array.attribute("TimeStep")) xml_.fail(array, "is of one of several times; expected one frame a file");
+    if (array.attribute("TimeStep")) xml_.fail(array, "is for one of several times; expected one frame per file");
     const std::vector<double> numbers = xml_.reals(array);
     const auto count = announced(piece, "NumberOfPoints");
     if (numbers.size() % 3 != 0 || numbers.size() / 3 != count) {
