@@ -172,9 +172,10 @@ TEST_F(Frames, ResultsSayWhatWasLookedAt) {
                                      {"numbers", "text with 3 digits, 2 decimals"},
                                      {"vertices", 4},
                                      {"cells", 1}}));
-  EXPECT_TRUE(has_note(json,
-                       "coordinates are text with 2 decimals: the verdict is exact for these numbers; writing them may "
-                       "have decided gaps below 5e-03"));
+  EXPECT_TRUE(
+      has_note(json,
+               "coordinates are text with 2 decimals: the verdict is exact for these numbers; their rounding may "
+               "decide gaps below 5e-03"));
   EXPECT_EQ(json["statement"]["order"], "as given, which is the order of the numbers in the names");
   const std::string text = run_noli({"verify", "--strict", a, b}).out;
   EXPECT_NE(text.find("Note: coordinates are text with 2 decimals"), std::string::npos) << text;

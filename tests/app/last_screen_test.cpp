@@ -78,8 +78,7 @@ TEST_F(LastScreen, OfAProof) {
 
 TEST_F(LastScreen, OfNoCheck) {
   const auto a = folder.write("a.ply", two_triangles(1)), b = folder.write("b.ply", two_triangles(2));
-  expect_on_screen(run_noli({"verify", a, b, "--no-check"}),
-                   {"Next: without --no-check", "NO CONTACT  2 frames, 1 step"});
+  expect_on_screen(run_noli({"verify", a, b, "--no-check"}), {"Next: drop --no-check", "NO CONTACT  2 frames, 1 step"});
 }
 
 TEST_F(LastScreen, OfTooLittleDistance) {

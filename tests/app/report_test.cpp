@@ -481,7 +481,7 @@ TEST_F(Report, OfFramesWhoseVerticesWereMergedOrMadePoints) {
 TEST_F(Report, RefusesWhatDoesNotFit) {
   const std::vector<std::string> frames = {frame("0.obj", 1), frame("1.obj", -1)};
   const std::string result = verdict(frames, 1);
-  write({frames[0], frames[1]}, 3, "no result of noli verify");
+  write({frames[0], frames[1]}, 3, "frames need their result");
   write({result, frames[0]}, 3, "is about 2 frames, but 1 frames were given");
   write({folder.write("none.json", "{")}, 3, "is not JSON");
   write({folder.write("list.json", "[]")}, 3, "expected an object");

@@ -135,7 +135,7 @@ class Repair(TestCase):
         for part in (self.V, self.V + 0.0):
             again = noli.repair(part, self.mesh, output=pattern, resume=True)
             self.assertTrue(np.array_equal(again.frames, whole.frames))
-        with self.assertRaisesRegex(noli.InputError, "other frames"):
+        with self.assertRaisesRegex(noli.InputError, "different frames"):
             noli.repair(self.V * 2, self.mesh, output=pattern, resume=True)
         with self.assertRaisesRegex(noli.UsageError, "output="):
             noli.repair(self.V, self.mesh, resume=True)

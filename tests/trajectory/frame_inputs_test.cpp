@@ -103,23 +103,25 @@ TEST(FrameInputs, TextThatMayHaveBeenRoundedEarnsANote) {
     return notes.empty() ? "" : notes[0];
   };
   EXPECT_EQ(note("a.obj", "v 0.123456 0.000000\nv 1.000000 0.000000\nv 0.000000 1.000000\nf 1 2 3\n"),
-            "coordinates are text with 6 decimals: the verdict is exact for these numbers; writing them may have "
-            "decided gaps below 5e-07");
-  EXPECT_EQ(note("a.obj", "v 1234.56 0.001\nv 1 0\nv 0 1\nf 1 2 3\n"),
-            "coordinates are text with 6 digits, 3 decimals: the verdict is exact for these numbers; writing them may "
-            "have decided gaps below 5e-03");
+            "coordinates are text with 6 decimals: the verdict is exact for these numbers; their rounding may "
+            "decide gaps below 5e-07");
+  EXPECT_EQ(
+      note("a.obj", "v 1234.56 0.001\nv 1 0\nv 0 1\nf 1 2 3\n"),
+      "coordinates are text with 6 digits, 3 decimals: the verdict is exact for these numbers; their rounding may "
+      "decide gaps below 5e-03");
   EXPECT_EQ(note("a.obj", "v 0.10000000000000001 0.2\nv 1 0\nv 0 1\nf 1 2 3\n"), "");
   EXPECT_EQ(note("a.ply", ascii("double", "0.1234567 0\n1.0000000 0\n0 1\n3 0 1 2\n")),
-            "coordinates are text with 7 decimals: the verdict is exact for these numbers; writing them may have "
-            "decided gaps below 5e-08");
+            "coordinates are text with 7 decimals: the verdict is exact for these numbers; their rounding may "
+            "decide gaps below 5e-08");
   EXPECT_EQ(note("a.ply", ascii("float", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")), "") << "9 digits tell every float";
-  EXPECT_EQ(note("a.ply", ascii("double", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")),
-            "coordinates are text with 9 digits, 9 decimals: the verdict is exact for these numbers; writing them may "
-            "have decided gaps below 5e-09")
+  EXPECT_EQ(
+      note("a.ply", ascii("double", "0.123456789 0\n1 0\n0 1\n3 0 1 2\n")),
+      "coordinates are text with 9 digits, 9 decimals: the verdict is exact for these numbers; their rounding may "
+      "decide gaps below 5e-09")
       << "9 digits of the largest number, 1";
   EXPECT_EQ(note("a.obj", "v 4 0 0.000001\nv 1 0 0.000000\nv 0 1 0.000000\nf 1 2 3\n"),
-            "coordinates are text with 6 decimals: the verdict is exact for these numbers; writing them may have "
-            "decided gaps below 5e-07");
+            "coordinates are text with 6 decimals: the verdict is exact for these numbers; their rounding may "
+            "decide gaps below 5e-07");
   EXPECT_EQ(note("a.ply", ascii("int", "7 0\n1 0\n0 1\n3 0 1 2\n")), "") << "whole numbers are what they are";
 }
 
@@ -128,8 +130,8 @@ TEST(FrameInputs, TheCoarsestTextOfAllCounts) {
   const auto a = folder.write("a.obj", "v 0.5000 0\nv 1.0000 0\nv 0 1\nf 1 2 3\n");
   const auto b = folder.write("b.obj", "v 0.50 0\nv 1.00 0\nv 0 1\nf 1 2 3\n");
   EXPECT_EQ(Taken({a, b, a}).notes()[0],
-            "coordinates are text with 2 decimals: the verdict is exact for these numbers; writing them may have "
-            "decided gaps below 5e-03");
+            "coordinates are text with 2 decimals: the verdict is exact for these numbers; their rounding may "
+            "decide gaps below 5e-03");
 }
 
 TEST(FrameInputs, PolygonsEarnANote) {

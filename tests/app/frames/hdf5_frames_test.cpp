@@ -128,7 +128,7 @@ TEST_F(Hdf5Frames, WhatIsNotAsItMustBeIsNamed) {
                  "[0]: vertex 0: expected a finite coordinate");
   expect_refused(with("VTKHDF/NumberOfPoints", {-6}), "-6 is not a count");
   expect_refused(with("VTKHDF/NumberOfPoints", {}), "VTKHDF/NumberOfPoints: is not there");
-  expect_refused(with("VTKHDF/NumberOfPoints", {6, 0}), "another number of parts");
+  expect_refused(with("VTKHDF/NumberOfPoints", {6, 0}), "a different number of parts");
   expect_refused(with("VTKHDF/Polygons/Connectivity", {0, 1, 2, 3, 4, 6}), "a cell has point 6; expected 0 to 5");
   expect_refused(with("VTKHDF/Polygons/Connectivity", {0, 1, 2}), "has 3 rows; expected 6");
   expect_refused(with("VTKHDF/Polygons/Offsets", {1, 3, 6}), "begin with 1, not 0");
@@ -269,7 +269,7 @@ TEST_F(Hdf5Frames, WithoutTheProgramTheyAreRefused) {
   fs::copy_file(NOLI_COMMAND, options.program);
   const Process process = run_noli({"verify", "--static", good()}, options);
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("is an HDF5 file; expected noli_series beside noli to read it"), std::string::npos)
+  EXPECT_NE(process.err.find("is an HDF5 file; noli_series, which reads it, is missing"), std::string::npos)
       << process.err;
 }
 

@@ -41,8 +41,7 @@ TEST_F(SimulateSeries, NoliDoesWithoutTheProgramAndSaysSo) {
   options.program = lonely_noli();
   const Process process = run_noli({"simulate", scene(many_frames()), "-o", run_path("run")}, options);
   EXPECT_EQ(process.exit_code, 0) << process.err;
-  EXPECT_NE(process.out.find("series.h5 was not written: noli_series is not beside noli"), std::string::npos)
-      << process.out;
+  EXPECT_NE(process.out.find("series.h5 was not written: noli_series is missing"), std::string::npos) << process.out;
   expect_whole_run_without_series("unavailable");
 }
 

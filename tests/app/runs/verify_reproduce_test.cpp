@@ -99,7 +99,7 @@ TEST_F(Reproduce, AnotherMotionIsAnErrorThatNamesTheWindow) {
   copy_with_a_fault(run, run_path("velocities"), 5, four_letters("VELO"));
   const Process velocities = run_noli({"verify", run_path("velocities"), "--reproduce"});
   EXPECT_EQ(velocities.exit_code, 3) << velocities.out;
-  EXPECT_TRUE(says(velocities.err, "window 5: integrated again, it ends in another state")) << velocities.err;
+  EXPECT_TRUE(says(velocities.err, "window 5: integrated again, it ends in a different state")) << velocities.err;
 }
 
 TEST_F(Reproduce, FilesOfTheSceneHaveToBeFoundUnchanged) {

@@ -115,7 +115,7 @@ TEST_F(DividedStep, ExchangedPartsAreRefusedByTheChecker) {
   for (const int task : {3, 4}) change_head(shard(task), [&](auto& head) { head["task"] = task - 1; });
   const Process process = merge();
   EXPECT_EQ(process.exit_code, 3);
-  EXPECT_NE(process.err.find("the shards do not fit together"), std::string::npos) << process.err;
+  EXPECT_NE(process.err.find("the shards do not match"), std::string::npos) << process.err;
 }
 
 TEST_F(DividedStep, APartWithoutAProofLeavesTheStepUnchecked) {

@@ -341,7 +341,7 @@ TEST_F(SpoiltShards, OnesWithAnInventedIntersectionAreRefused) {
     head["steps"][3]["initial_intersections"] = 1;
     head["touch"] = 19;
   });
-  expect_refused("the shards do not fit together");
+  expect_refused("the shards do not match");
 }
 
 TEST_F(Shards, AContactThatIsNoneIsAFaultOfTheShards) {
@@ -396,7 +396,7 @@ TEST_F(Shards, AProofThatIsRefusedEarlyIsAFaultOfTheShards) {
   for (const char* threads : {"1", "2"}) {
     const Process process = run_noli({"merge", shards(), "--threads", threads});
     EXPECT_EQ(process.exit_code, 3) << process.out << process.err;
-    EXPECT_NE(process.err.find("the shards do not fit together"), std::string::npos) << process.err;
+    EXPECT_NE(process.err.find("the shards do not match"), std::string::npos) << process.err;
   }
 }
 
