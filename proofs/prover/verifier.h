@@ -109,18 +109,18 @@ struct StepProof {
 struct VerifyResult : Findings {
   /// The contact with the least first time, if there is any; ties: the first in canonical order.
   std::optional<FeatureContact> first;
-  /// Set if `prove` was set, the step, or the part, is complete, and nothing meets in it, nor goes on; unless parts come
-  /// so near each other that no proof was found. Not set if a receiver took the proof.
+  /// Set if `prove` was set, the step, or the part, is complete, and nothing meets in it; unless parts come so near
+  /// each other that no proof was found. Not set if a receiver took the proof.
   std::shared_ptr<const StepProof> proof;
   bool receiver_has_proof = false;  ///< the receiver took the whole proof
 };
 
 /// Verifies one step. Preconditions: both spans have mesh.vertex_count finite positions, every index of the mesh is
 /// below that, and there are fewer than 2^31 cells. Deterministic: the result depends only on the input and on
-/// `dimension`, `initial`, `after_step`, `first_only`, `strict`, `max_reports`, `part`, `chain` (unless stopped by `stop`
-/// or `deadline`), not on the number of threads. With `prove`, directions are rounded to the bits of short tokens; this may change
-/// `obligations`, `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and the proof. Throws
-/// std::bad_alloc, and what `progress` and `receiver` throw.
+/// `dimension`, `initial`, `after_step`, `first_only`, `strict`, `max_reports`, `part`, `chain` (unless stopped by
+/// `stop` or `deadline`), not on the number of threads. With `prove`, directions are rounded to the bits of short
+/// tokens; this may change `obligations`, `cell_pairs` and `stages`, and nothing else. Memory is linear in the mesh and
+/// the proof. Throws std::bad_alloc, and what `progress` and `receiver` throw.
 VerifyResult verify_step(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1,
                          const VerifyOptions& options);
 
