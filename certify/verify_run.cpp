@@ -21,7 +21,6 @@
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "integrator/scene/scene.h"
-#include "proofs/prover/chain.h"
 #include "proofs/prover/windows/window_features.h"
 #include "proofs/prover/windows/window_verifier.h"
 #include "trajectory/blocks/folder_lock.h"

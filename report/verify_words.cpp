@@ -130,11 +130,11 @@ class Words {
                        how_it_begins(step));
   }
 
+  /// Precondition: the step has contacts.
   std::string how_it_begins(const StepCounts& step) const {
-    const std::string others = step.goes_on ? "in addition to contacts that go on" : "";
-    if (!step.first) return others;
-    return fmt::format("t = {}{}  {}, {}{}{}", digits4(step.first->time), request_.run ? " s" : "",
-                       pair_in_short(*step.first), name(step.first->kind), others.empty() ? "" : ", ", others);
+    return fmt::format("t = {}{}  {}, {}{}", digits4(step.first->time), request_.run ? " s" : "",
+                       pair_in_short(*step.first), name(step.first->kind),
+                       step.goes_on ? ", in addition to contacts that go on" : "");
   }
 
   /// How wide UTF-8 is on a terminal, for names without wide letters.

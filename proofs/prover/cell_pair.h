@@ -411,8 +411,8 @@ class CellPairs {
 
   /// Whether features meet at the beginning of the step.
   bool met_before(FeatureQuestion<Dim> question) const {
-    const Moving a = positions_.at_begin(static_cast<const Moving&>(*question.first_cell));
-    const Moving b = positions_.at_begin(static_cast<const Moving&>(*question.second_cell));
+    const Moving& a = positions_.at_begin(static_cast<const Moving&>(*question.first_cell));
+    const Moving& b = positions_.at_begin(static_cast<const Moving&>(*question.second_cell));
     question.first_cell = &a;
     question.second_cell = &b;
     return meet_at_begin(question);

@@ -33,9 +33,7 @@ class Verification {
       sum_ = walk(chords);
     } else if (!settle_halves(window)) {
       sum_ = walk(chords);
-      // What a later span met may go on since the beginning of the window.
-      const bool is_new = !options_.after_step || met_at_once_;
-      if (!sum_.finished && !sum_.tally.found_any() && is_new) sum_ = std::move(*met_), sum_.finished = false;
+      if (!sum_.finished && !sum_.tally.found_any() && met_) sum_ = std::move(*met_), sum_.finished = false;
     }
     return {sum_.tally.findings(sum_.finished), sum_.tally.earliest.first()};
   }
@@ -102,8 +100,8 @@ class Verification {
     if (cut_time(chords)) return settle_halves(span);
     WindowOutcome<Dim> outcome = walk(chords);
     if (outcome.tally.found_any()) {
-      met_ = std::move(outcome);
-      met_at_once_ = span.begin == lines_.first_time();
+      // What a later span meets may go on since the beginning of the window.
+      if (!options_.after_step || span.begin == lines_.first_time()) met_ = std::move(outcome);
       return false;
     }
     sum_.tally += outcome.tally;
@@ -122,8 +120,7 @@ class Verification {
   Progress progress_;
   WindowTally none_;
   WindowOutcome<Dim> sum_;
-  std::optional<WindowOutcome<Dim>> met_;  ///< of the span in which something met
-  bool met_at_once_ = false;               ///< that span begins with the window
+  std::optional<WindowOutcome<Dim>> met_;  ///< of the span in which something certainly new met
 };
 
 }  // namespace
