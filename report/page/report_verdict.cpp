@@ -15,7 +15,7 @@ constexpr std::string_view good[] = {"no_contact", "proved",   "no_difference", 
                                      "agreement",  "accepted", "same",          "holds"};
 constexpr std::string_view bad[] = {"contact",      "cannot_be", "too_near", "not_finite", "unstable", "finding",
                                     "disagreement", "refuted",   "rejected", "differs",    "different"};
-constexpr std::string_view neutral[] = {"measured", "decided", "explained", "described", "report", "written"};
+constexpr std::string_view neutral[] = {"measured", "decided", "explained", "described", "report", "written", "done"};
 
 bool among(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
 

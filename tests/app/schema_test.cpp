@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "report/page/report_verdict.h"
 #include "tests/app/process.h"
 #include "tests/app/runs/simulate_fixture.h"
 #include "tests/app/scene.h"
@@ -53,6 +54,21 @@ TEST_F(Schema, NamesAreListedAndEachIsPrinted) {
   for (const char* name : {"scene", "groups", "claim", "verify", "check", "simulate", "ccd"}) {
     EXPECT_EQ(seen.count(name), 1u) << name;
   }
+}
+
+/// A word without a tone looks like "undecided" on terminals and pages.
+TEST_F(Schema, EachVerdictHasATone) {
+  std::istringstream names(run_noli({"schema"}).out);
+  std::set<std::string> open;
+  for (std::string name; names >> name;) {
+    const Json schema = Json::parse(run_noli({"schema", name}).out);
+    const Json verdict = schema["properties"].value("verdict", Json::object());
+    for (const std::string word : verdict.value("enum", Json::array())) {
+      if (report::tone_of(word) == report::Tone::open) open.insert(word);
+    }
+  }
+  EXPECT_EQ(open, std::set<std::string>{"undecided"});
+  EXPECT_EQ(report::tone_of("done"), report::Tone::neutral);  // of `verify --shard`, which has no schema
 }
 
 TEST_F(Schema, AnUnknownNameIsRefused) {
