@@ -486,7 +486,7 @@ class SequenceVerification : private Verification {
 
   void note_numbering() {
     if (!outcome_.touches() && !outcome_.is_too_near()) return;
-    const auto is_obj = [](const FrameFacts& facts) { return facts.file.ends_with(".obj"); };
+    const auto is_obj = [](const FrameFacts& facts) { return extension_of(facts.file) == ".obj"; };
     if (!std::ranges::any_of(outcome_.inputs, is_obj)) return;
     outcome_.notes.emplace_back("vertices and cells count from 0 here; in OBJ files they count from 1");
   }
