@@ -3,6 +3,8 @@
 // Checks that every link in a document and every reference in a source leads to something that exists.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -26,26 +28,69 @@ std::vector<std::string> all_matches(const std::string& text, const char* patter
 
 bool is_prose(const fs::path& path) { return path.extension() == ".md"; }
 
-/// Targets of links in a document to files of the project that do not exist.
+/// The anchor of a heading, as web views of repositories and the documentation make it.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    if (c == ' ') anchor += '-';
+    if (c == '-' || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  return anchor;
+}
+
+bool has_anchor(const std::string& document, const std::string& anchor) {
+  const auto headings = all_matches(document, R"((?:^|\n)#+ ([^\n]+))");
+  return std::ranges::any_of(headings, [&](const std::string& heading) { return anchor_of(heading) == anchor; });
+}
+
+/// Targets of links in a document to files of the project, or to headings in them, that do not exist.
 std::vector<std::string> dead_links(const fs::path& document, const std::string& text) {
   std::vector<std::string> dead;
   const std::string prose = std::regex_replace(text, std::regex("`[^`]*`"), "code");
-  for (const std::string& target : all_matches(prose, R"(\]\(([^)#\s]+)[^)]*\))")) {
-    const bool elsewhere = target.find("://") != std::string::npos || target.starts_with("mailto:");
-    if (!elsewhere && !fs::exists(document.parent_path() / target)) dead.push_back(target);
+  for (const std::string& target : all_matches(prose, R"(\]\(([^)\s]+)[^)]*\))")) {
+    if (target.find("://") != std::string::npos || target.starts_with("mailto:")) continue;
+    const auto hash = target.find('#');
+    const std::string file = target.substr(0, hash);
+    const bool there = file.empty() || fs::exists(document.parent_path() / file);
+    if (!there) dead.push_back(file);
+    if (!there || hash == std::string::npos) continue;
+    if (!has_anchor(file.empty() ? text : read_text(document.parent_path() / file), target.substr(hash + 1))) {
+      dead.push_back(target);
+    }
   }
   return dead;
 }
 
-/// Sections of docs/ that a source refers to but that do not exist: "docs/contact.md, 4", and (design, "Volume").
-std::vector<std::string> dead_sections(const std::string& source, const std::string& contact,
-                                       const std::string& design) {
+/// The documents whose sections sources refer to.
+struct Documents {
+  std::string contact, design, format, theory;
+};
+
+/// Sections that a source refers to but that do not exist: "docs/contact.md, 4", "proofs/FORMAT.md, sections 2 to 4",
+/// "theory.md, T5", and (design, "Volume").
+std::vector<std::string> dead_sections(const std::string& source, const Documents& documents) {
+  struct Reference {
+    const char* pattern;
+    const std::string& document;
+    const char* name;
+  };
+  const Reference references[] = {
+      {R"(docs/contact\.md, (?:section )?([0-9]+))", documents.contact, "contact.md"},
+      {R"(proofs/FORMAT\.md,\s+(?://\s+)?sections?\s+(?://\s+)?([0-9]+))", documents.format, "FORMAT.md"},
+      {R"(proofs/FORMAT\.md,\s+(?://\s+)?sections [0-9]+ (?:and|to) ([0-9]+))", documents.format, "FORMAT.md"},
+      {R"(theory\.md, ([A-Z][0-9]+))", documents.theory, "theory.md"}};
   std::vector<std::string> dead;
-  for (const std::string& number : all_matches(source, R"(docs/contact\.md, ([0-9]+))")) {
-    if (contact.find("\n## " + number + ". ") == std::string::npos) dead.push_back("contact.md, " + number);
+  for (const auto& [pattern, document, document_name] : references) {
+    for (const std::string& section : all_matches(source, pattern)) {
+      if (document.find("\n## " + section + ". ") == std::string::npos) {
+        dead.push_back(document_name + (", " + section));
+      }
+    }
   }
   for (const std::string& name : all_matches(source, R"rx(design,\s+(?://\s+)?"([A-Z][^"/]*)")rx")) {
-    if (design.find("# " + name + "\n") == std::string::npos) dead.push_back("design.md, " + name);
+    if (documents.design.find("# " + name + "\n") == std::string::npos) dead.push_back("design.md, " + name);
   }
   return dead;
 }
@@ -55,6 +100,18 @@ std::vector<std::string> dead_places(const fs::path& root, const std::string& te
   std::vector<std::string> dead;
   for (const std::string& place : all_matches(text, R"(`([a-z_]+/[A-Za-z_/.-]*)`)")) {
     if (!fs::exists(root / place)) dead.push_back(place);
+  }
+  return dead;
+}
+
+/// Sources that comments name but that do not exist: by their path in the project or the last part of it.
+std::vector<std::string> dead_sources(const std::string& source, const std::set<std::string>& sources) {
+  std::vector<std::string> dead;
+  for (const std::string& comment : all_matches(source, R"(//([^\n]*))")) {
+    for (const std::string& name : all_matches(comment, R"((?:^|[^\w/.<*-])([A-Za-z_][\w/]*\.(?:h|cpp))\b)")) {
+      const auto is_it = [&name](const std::string& path) { return ("/" + path).ends_with("/" + name); };
+      if (std::ranges::none_of(sources, is_it)) dead.push_back(name);
+    }
   }
   return dead;
 }
@@ -69,12 +126,25 @@ TEST(Links, OfDocumentsLeadSomewhere) {
   EXPECT_GT(seen, 10);
 }
 
-TEST(Links, OfSourcesToTheDesignLeadSomewhere) {
+TEST(Links, OfSourcesToSectionsLeadSomewhere) {
   const fs::path root = NOLI_SOURCE_DIR;
-  const std::string contact = read_text(root / "docs/contact.md"), design = read_text(root / "docs/design.md");
+  const Documents documents{read_text(root / "docs/contact.md"), read_text(root / "docs/design.md"),
+                            read_text(root / "proofs/FORMAT.md"), read_text(root / "proofs/theory.md")};
   for (const fs::path& file : files_below(root)) {
     if (!is_cpp(file) || file.filename() == "links_test.cpp") continue;
-    EXPECT_EQ(lines(dead_sections(read_text(file), contact, design)), "") << file;
+    EXPECT_EQ(lines(dead_sections(read_text(file), documents)), "") << file;
+  }
+}
+
+TEST(Links, OfCommentsToSourcesLeadSomewhere) {
+  const fs::path root = NOLI_SOURCE_DIR;
+  std::set<std::string> sources{"vtkCellType.h"};  // of VTK
+  for (const fs::path& file : files_below(root)) {
+    if (is_cpp(file)) sources.insert(file.lexically_relative(root).string());
+  }
+  for (const fs::path& file : files_below(root)) {
+    if (!is_cpp(file) || file.filename() == "links_test.cpp") continue;
+    EXPECT_EQ(lines(dead_sources(read_text(file), sources)), "") << file;
   }
 }
 
@@ -110,8 +180,18 @@ TEST(Links, DeadOnesAreFound) {
   EXPECT_EQ(lines(dead_links(root.path() / "docs/a.md",
                              "[a](there.md) [b](gone.md#x) [`c`](https://example.org/x) `d[](int i)`")),
             "gone.md\n");
-  EXPECT_EQ(lines(dead_sections("docs/contact.md, 1 and docs/contact.md, 9", "x\n## 1. A\n", "")), "contact.md, 9\n");
-  EXPECT_EQ(lines(dead_sections("(design, \"Audit\") (design, \"Gone\")", "", "# Audit\n")), "design.md, Gone\n");
+  EXPECT_EQ(lines(dead_links(root.path() / "docs/a.md", "# A B\n[a](#a-b) [b](#b) [c](there.md#a)")),
+            "#b\nthere.md#a\n");
+  const Documents documents{"x\n## 1. A\n", "# Audit\n", "x\n## 2. B\n## 3. C\n", "x\n## T5. D\n"};
+  EXPECT_EQ(lines(dead_sections("docs/contact.md, 1 and docs/contact.md, 9", documents)), "contact.md, 9\n");
+  EXPECT_EQ(lines(dead_sections("(design, \"Audit\") (design, \"Gone\")", documents)), "design.md, Gone\n");
+  EXPECT_EQ(lines(dead_sections("proofs/FORMAT.md, sections 2 and 3; proofs/FORMAT.md, sections 2 to 4", documents)),
+            "FORMAT.md, 4\n");
+  EXPECT_EQ(lines(dead_sections("proofs/FORMAT.md,\n// section 2; proofs/FORMAT.md, section 5", documents)),
+            "FORMAT.md, 5\n");
+  EXPECT_EQ(lines(dead_sections("proofs/theory.md, T5; theory.md, T6", documents)), "theory.md, T6\n");
+  EXPECT_EQ(lines(dead_sources("int i;  // see there.h, b/there.h, c/there.h and gone.cpp", {"a/b/there.h"})),
+            "c/there.h\ngone.cpp\n");
   EXPECT_EQ(lines(dead_places(root.path(), "`docs/there.md` `docs/gone.md`")), "docs/gone.md\n");
 }
 

@@ -57,7 +57,7 @@ inline std::vector<QueryType> crossing_types() { return {vertex_face, edge_edge,
 inline std::vector<QueryType> types_with_edges() { return {vertex_face, edge_edge, vertex_edge_3d, vertex_edge_2d}; }
 inline std::vector<QueryType> types_with_edges_in_space() { return {vertex_face, edge_edge, vertex_edge_3d}; }
 
-/// Where the families are defined: generators_space.cpp, ...
+/// Where the families are defined: generators_position.cpp, ...
 std::vector<QueryFamily> families_of_position();  ///< special positions of the features at the contact
 std::vector<QueryFamily> families_of_motion();    ///< special motions
 std::vector<QueryFamily> families_of_number();    ///< special numbers
