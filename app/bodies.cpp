@@ -39,7 +39,7 @@ BodyFrames obstacle(const std::string& word) {
 
 }  // namespace
 
-void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames) {
+void add_body_options(CLI::App& command, BodyArguments& words, CLI::Option* frames) {
   CLI::Option* const body =
       command.add_option("--body", words.bodies, "A body and its files, once for each body; joined into one mesh")
           ->allow_extra_args(false)
@@ -56,7 +56,7 @@ void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames) 
   still->excludes(frames);
 }
 
-std::vector<BodyFrames> bodies_of(const BodyWords& words, FrameOrder order, std::vector<std::string>& notes) {
+std::vector<BodyFrames> bodies_of(const BodyArguments& words, FrameOrder order, std::vector<std::string>& notes) {
   std::vector<BodyFrames> bodies;
   for (const std::string& word : words.bodies) bodies.push_back(parsed(word, "--body"));
   for (const std::string& word : words.obstacles) bodies.push_back(obstacle(word));

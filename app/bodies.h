@@ -12,17 +12,17 @@
 namespace noli::app {
 
 /// What the user wrote.
-struct BodyWords {
+struct BodyArguments {
   std::vector<std::string> bodies, obstacles;
 
   bool any() const { return !bodies.empty() || !obstacles.empty(); }
 };
 
 /// `frames`: the option that names frames of one mesh, which goes with neither; nullptr for a command without it.
-void add_body_options(CLI::App& command, BodyWords& words, CLI::Option* frames);
+void add_body_options(CLI::App& command, BodyArguments& words, CLI::Option* frames);
 
 /// The bodies with their files, each in the order that is asked for. Notes on the order are added to `notes`. Throws
 /// UsageError, InputError.
-std::vector<BodyFrames> bodies_of(const BodyWords& words, FrameOrder order, std::vector<std::string>& notes);
+std::vector<BodyFrames> bodies_of(const BodyArguments& words, FrameOrder order, std::vector<std::string>& notes);
 
 }  // namespace noli::app

@@ -75,7 +75,7 @@ struct CheckArguments {
   int threads = 0;
   FrameOrder order = FrameOrder::checked;
   FrameReading reading;
-  BodyWords bodies;
+  BodyArguments bodies;
   std::string time_limit;
   OutputOptions results;
 };

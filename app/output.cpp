@@ -28,7 +28,7 @@ std::string verdict_in_colour(const report::Answer& answer) {
 }
 
 std::string words_of(const report::Answer& answer, bool verbose) {
-  return answer.words_above(verbose) + answer.last_line(verdict_in_colour(answer)) + '\n';
+  return answer.text_above(verbose) + answer.last_line(verdict_in_colour(answer)) + '\n';
 }
 
 }  // namespace

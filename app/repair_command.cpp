@@ -44,7 +44,7 @@ constexpr const char* repair_footer =
 
 struct RepairArguments {
   RepairRequest request;
-  BodyWords bodies;
+  BodyArguments bodies;
   std::optional<std::filesystem::path> fixed_vertices;
   std::string time_limit;
   OutputOptions results;

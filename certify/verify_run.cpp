@@ -17,7 +17,7 @@
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
-#include "certify/simulate/windows_again.h"
+#include "certify/simulate/reproduced_windows.h"
 #include "certify/stopwatch.h"
 #include "certify/verification.h"
 #include "integrator/scene/scene.h"
@@ -208,7 +208,8 @@ class RunVerification : private Verification {
 
   /// Builds the model of the scene, to integrate its windows again.
   void make_again() {
-    again_ = WindowsAgain::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
+    again_ =
+        ReproducedWindows::of(request_.frames[0], request_.scene_folder, reader_.scene(), [this] { return stopped(); });
   }
 
   /// Integrates the window again and gives it its world lines. False if it was stopped. What was decided elsewhere is
@@ -357,7 +358,7 @@ class RunVerification : private Verification {
   SeriesReader reader_;
   std::optional<WindowVerifier> verifier_;  ///< made from the first positions of the run
   std::unique_ptr<StepProofs> proof_;
-  std::unique_ptr<WindowsAgain> again_;                      ///< with --reproduce
+  std::unique_ptr<ReproducedWindows> again_;                 ///< with --reproduce
   std::optional<std::pair<RunWindow, WindowState>> before_;  ///< with `decided`: the window before, as again_ needs it
   std::optional<RunWriter> lines_;                           ///< of the run as if it were recorded in full
   bool witness_sought_ = false;

@@ -213,20 +213,20 @@ class Engine {
 
   void make_own_clocks() {
     if (clocks_ != Clocks::own) return;
-    std::array<Shelf, kinds> shelves;
+    std::array<ForceTable, kinds> tables;
     std::vector<double> steps;
-    std::vector<Calendar::Said> said;
+    std::vector<Calendar::EventData> data;
     Carriers carriers(gravity_.steps());
     std::uint16_t kind = 0;
     for_each_division([&](const auto& d) {
-      shelves[kind] = Shelf(d.list.forces, steps.size());
+      tables[kind] = ForceTable(d.list.forces, steps.size());
       steps.insert(steps.end(), d.list.steps.begin(), d.list.steps.end());
       for (std::size_t i = 0; i < d.list.forces.size(); ++i) {
-        said.push_back({kind, carriers.take(d.list.forces[i].vertices, d.list.steps[i])});
+        data.push_back({kind, carriers.take(d.list.forces[i].vertices, d.list.steps[i])});
       }
       ++kind;
     });
-    own_ = OwnClocks<kinds>(shelves, Calendar(steps, said, time()), particles_.size());
+    own_ = OwnClocks<kinds>(tables, Calendar(steps, data, time()), particles_.size());
   }
 
   void make_contact(const Model<S, Dim>& model) {
@@ -424,7 +424,7 @@ class Engine {
   /// Whether the rows of run_own could have more breakpoints than a window.
   template <class Recorder>
   bool nearly_full(const Recorder& record) const {
-    constexpr std::size_t most = most_rows * OwnClocks<kinds>::longest_row * Shelf::most_vertices;
+    constexpr std::size_t most = most_rows * OwnClocks<kinds>::longest_row * ForceTable::most_vertices;
     return record.size() + most >= most_breakpoints_;
   }
 

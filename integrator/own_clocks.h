@@ -5,7 +5,7 @@
 //
 // Notation
 //   number   of a force among all forces: those of one kind follow one another
-//   shelf    the forces of one kind
+//   table    the forces of one kind
 //   row      the next forces, in the order of Calendar, as long as they have no vertex in common
 //
 // Processors cannot predict the order of such forces. So their addresses are computed without a branch on their kind,
@@ -44,7 +44,7 @@ namespace noli::integrator {
 class Calendar {
  public:
   /// Data of an event, from the caller.
-  struct Said {
+  struct EventData {
     std::uint16_t kind;
     std::uint16_t carries;  ///< bit k: gravity acts on vertex k with it
   };
@@ -52,16 +52,16 @@ class Calendar {
   struct Entry {
     double step, next;  ///< h and k, an integer
     std::uint32_t event;
-    Said said;
+    EventData data;
 
     double time() const { return next * step; }
   };
 
   Calendar() = default;
 
-  /// One event for each step, at its first time after `now`. `said`: one for each step. Precondition: steps are
+  /// One event for each step, at its first time after `now`. `data`: one for each step. Precondition: steps are
   /// positive, and fewer than 2^32.
-  Calendar(const std::vector<double>& steps, const std::vector<Said>& said, double now) {
+  Calendar(const std::vector<double>& steps, const std::vector<EventData>& data, double now) {
     if (steps.empty()) return;
     const auto [least, longest] = std::minmax_element(steps.begin(), steps.end());
     double rate = 0;
@@ -71,7 +71,7 @@ class Calendar {
     many_years_ = days > most_days;
     days_.resize(std::bit_ceil(static_cast<std::size_t>(std::min(days, most_days))));
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      put({steps[i], static_cast<double>(first_after(now, steps[i])), static_cast<std::uint32_t>(i), said[i]});
+      put({steps[i], static_cast<double>(first_after(now, steps[i])), static_cast<std::uint32_t>(i), data[i]});
     }
     day_ = static_cast<std::uint64_t>(now / length_);
     open();
@@ -89,7 +89,7 @@ class Calendar {
   /// Sends the next event to its next time.
   void advance() {
     const Entry& entry = today_[at_];
-    put({entry.step, entry.next + 1, entry.event, entry.said});
+    put({entry.step, entry.next + 1, entry.event, entry.data});
     if (++at_ == today_.size()) {
       ++day_;
       open();
@@ -167,15 +167,15 @@ class Calendar {
 };
 
 /// The forces of one kind as bytes.
-class Shelf {
+class ForceTable {
  public:
   static constexpr std::size_t most_vertices = 4;  ///< of a force
 
-  Shelf() = default;
+  ForceTable() = default;
 
   /// `first`: the number of the first force. The forces must outlive this.
   template <class F>
-  Shelf(const std::vector<F>& forces, std::size_t first) : first_(first) {
+  ForceTable(const std::vector<F>& forces, std::size_t first) : first_(first) {
     if (forces.empty()) return;
     stride_ = sizeof(F);
     last_ = F::size - 1;
@@ -206,27 +206,27 @@ class Shelf {
 };
 
 /// Finds out whether forces have a vertex in common.
-class Claims {
+class VertexMarks {
  public:
-  explicit Claims(std::size_t vertex_count = 0) : claimed_(vertex_count, 0) {}
+  explicit VertexMarks(std::size_t vertex_count = 0) : marked_(vertex_count, 0) {}
 
-  /// Forgets all claims.
+  /// Forgets all marks.
   void clear() {
     if (++round_ != 0) return;
-    std::fill(claimed_.begin(), claimed_.end(), 0);  // once in 2^32 rounds
+    std::fill(marked_.begin(), marked_.end(), 0);  // once in 2^32 rounds
     round_ = 1;
   }
 
-  /// Claims the vertices of a force, unless one of them is taken; returns whether it did.
-  bool claim(const Shelf& shelf, std::size_t number) {
+  /// Marks the vertices of a force, unless one of them is taken; returns whether it did.
+  bool mark(const ForceTable& table, std::size_t number) {
     bool taken = false;
-    shelf.for_each_vertex(number, [&](VertexId v) { taken |= claimed_[v] == round_; });
-    if (!taken) shelf.for_each_vertex(number, [&](VertexId v) { claimed_[v] = round_; });
+    table.for_each_vertex(number, [&](VertexId v) { taken |= marked_[v] == round_; });
+    if (!taken) table.for_each_vertex(number, [&](VertexId v) { marked_[v] = round_; });
     return !taken;
   }
 
  private:
-  std::vector<std::uint32_t> claimed_;  ///< by vertex: the last round in which it was claimed
+  std::vector<std::uint32_t> marked_;  ///< by vertex: the last round in which it was marked
   std::uint32_t round_ = 0;
 };
 
@@ -238,9 +238,9 @@ class OwnClocks {
 
   OwnClocks() = default;
 
-  /// `calendar`: of all forces, by number; its entries say on which shelf each force is.
-  OwnClocks(const std::array<Shelf, Kinds>& shelves, Calendar calendar, std::size_t vertex_count)
-      : calendar_(std::move(calendar)), shelves_(shelves), claims_(vertex_count) {}
+  /// `calendar`: of all forces, by number; its entries say in which table each force is.
+  OwnClocks(const std::array<ForceTable, Kinds>& tables, Calendar calendar, std::size_t vertex_count)
+      : calendar_(std::move(calendar)), tables_(tables), marks_(vertex_count) {}
 
   bool empty() const { return calendar_.empty(); }
   /// The time of the next force. Precondition: not empty.
@@ -251,13 +251,13 @@ class OwnClocks {
   template <class IsDue, class Prefetch>
   void take_row(std::size_t longest, const IsDue& is_due, const Prefetch& prefetch) {
     sizes_ = {};
-    claims_.clear();
+    marks_.clear();
     for (std::size_t size = 0; size < longest && is_due(); ++size) {
       const Calendar::Entry& entry = calendar_.front();
-      const auto [kind, carries] = entry.said;
-      const Shelf& shelf = shelves_[kind];
-      if (!claims_.claim(shelf, entry.event)) return;
-      row_[kind][sizes_[kind]++] = {entry.time(), entry.step, entry.event - shelf.first(), carries,
+      const auto [kind, carries] = entry.data;
+      const ForceTable& table = tables_[kind];
+      if (!marks_.mark(table, entry.event)) return;
+      row_[kind][sizes_[kind]++] = {entry.time(), entry.step, entry.event - table.first(), carries,
                                     (entry.next + 1) * entry.step};
       look_ahead(prefetch);
       calendar_.advance();
@@ -273,13 +273,13 @@ class OwnClocks {
     constexpr std::size_t far = 24, near = 12;
     if (calendar_.ahead() < far) return;
     const Calendar::Entry &later = calendar_.ahead(far), &soon = calendar_.ahead(near);
-    shelves_[later.said.kind].prefetch(later.event);
-    shelves_[soon.said.kind].for_each_vertex(soon.event, prefetch);
+    tables_[later.data.kind].prefetch(later.event);
+    tables_[soon.data.kind].for_each_vertex(soon.event, prefetch);
   }
 
   Calendar calendar_;
-  std::array<Shelf, Kinds> shelves_;
-  Claims claims_;
+  std::array<ForceTable, Kinds> tables_;
+  VertexMarks marks_;
   std::array<std::array<DueForce, longest_row>, Kinds> row_{};
   std::array<std::size_t, Kinds> sizes_{};
 };

@@ -59,7 +59,7 @@ std::string Answer::last_line(const std::string& word) const {
   return word + (behind.empty() ? "" : "  " + behind);
 }
 
-std::string Answer::words_above(bool verbose) const {
+std::string Answer::text_above(bool verbose) const {
   return text + (verbose ? details : "") + (next.empty() ? "" : "Next: " + next + '\n');
 }
 

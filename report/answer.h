@@ -50,7 +50,7 @@ class Answer {
   /// `verdict=WORD key=value ...`, one line.
   std::string porcelain() const;
   /// The text, the details if they are wanted, and what to do: all above the last line.
-  std::string words_above(bool verbose) const;
+  std::string text_above(bool verbose) const;
   /// The verdict in capitals: "NO FINDING".
   std::string verdict_word() const;
   /// The verdict as programs know it: "no_finding".

@@ -55,7 +55,7 @@ Answer meshes_answer(const std::vector<MeshVerdict>& meshes, bool details) {
   for (const MeshVerdict& mesh : meshes) {
     answer.text += fmt::format("{}\n  {}\n", on_one_line(mesh.file), mesh.answer.last_line());
     for (const std::string& note : mesh.notes) answer.text += fmt::format("  Note: {}.\n", on_one_line(note));
-    if (details) answer.details += fmt::format("{}\n{}", on_one_line(mesh.file), mesh.answer.words_above(true));
+    if (details) answer.details += fmt::format("{}\n{}", on_one_line(mesh.file), mesh.answer.text_above(true));
   }
   answer.place = place_of_all(meshes);
   return answer;

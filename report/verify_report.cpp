@@ -152,10 +152,10 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
   return json;
 }
 
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted) {
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted) {
   Answer answer(name(outcome.verdict));
   add_pairs(outcome, answer);
-  put_words(request, outcome, std::move(wanted), answer);
+  put_text(request, outcome, std::move(wanted), answer);
   return answer;
 }
 

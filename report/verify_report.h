@@ -8,7 +8,7 @@
 #include <noli/verify.h>
 #include "certify/json.h"
 #include "report/answer.h"
-#include "report/verify_words.h"
+#include "report/verify_text.h"
 
 namespace noli::report {
 
@@ -18,7 +18,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome);
 
 /// Contacts and notes; with --verbose also the statement, the files, and the work. The place of the verdict is a step,
 /// a time and two features.
-Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted = {});
+Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted = {});
 
 /// How many pairs each stage decided, and obligations and pairs of cells.
 Json work_json(const VerifyOutcome& outcome);

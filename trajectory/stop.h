@@ -74,9 +74,9 @@ class ReadInterrupted : public Stopped {
 
  private:
   ReadInterrupted(const std::string& file, StopReason reason)
-      : Stopped(reason, Words{on_one_line(file + (reason == StopReason::interrupted
-                                                      ? ": interrupted while it was read"
-                                                      : ": the time limit has passed while it was read"))}) {}
+      : Stopped(reason, Message{on_one_line(file + (reason == StopReason::interrupted
+                                                        ? ": interrupted while it was read"
+                                                        : ": the time limit has passed while it was read"))}) {}
 };
 
 }  // namespace noli

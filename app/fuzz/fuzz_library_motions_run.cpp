@@ -181,12 +181,12 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
   }
   Json facts = {{"library", library.path.string()}};
   facts.update(motion_facts(motion));
-  return tell_again(output, {.unknown = interrupted(),
-                             .difference = found ? std::optional(found->words) : std::nullopt,
-                             .saved = saved,
-                             .facts = facts,
-                             .pairs = {"frames", "cells", "vertices"},
-                             .about_saved = saved ? "\n  again: " + again(arguments.theirs, *saved) : ""});
+  return tell_replay(output, {.unknown = interrupted(),
+                              .difference = found ? std::optional(found->words) : std::nullopt,
+                              .saved = saved,
+                              .facts = facts,
+                              .pairs = {"frames", "cells", "vertices"},
+                              .about_saved = saved ? "\n  again: " + again(arguments.theirs, *saved) : ""});
 }
 
 }  // namespace noli::app

@@ -12,7 +12,7 @@ namespace noli::app {
 
 struct LibraryMotionArguments {
   FuzzArgumentsInCommon common;
-  AgainArguments again;
+  ReplayArguments again;
   LibraryArguments theirs;
   std::size_t max_findings = 20;
   std::vector<std::string> families;  ///< names of generators; none: all of them

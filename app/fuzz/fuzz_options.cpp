@@ -36,8 +36,8 @@ void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const
   add_output_options(command, arguments.results);
 }
 
-void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
-                       std::vector<std::string> excluded) {
+void add_replay_options(CLI::App& command, ReplayArguments& arguments, const std::string& what, const std::string& type,
+                        std::vector<std::string> excluded) {
   CLI::Option* const replay =
       command.add_option("--replay", arguments.replay, "Judge this saved " + what + " again instead")->type_name(type);
   CLI::Option* const minimise =
@@ -80,7 +80,7 @@ void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& argu
   if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
 }
 
-ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place) {
+ExitCode tell_replay(const Output& output, const ReplayResult& judged, const char* place) {
   const bool finding = judged.difference.has_value();
   Json json = {{"verdict", judged.unknown ? "undecided" : finding ? "finding" : "no_finding"}};
   json.update(judged.facts);

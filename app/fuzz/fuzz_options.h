@@ -34,7 +34,7 @@ struct FuzzArgumentsInCommon {
 void add_fuzz_options(CLI::App& command, FuzzArgumentsInCommon& arguments, const std::string& what);
 
 /// --replay and --minimise: something that was saved, judged again instead of fuzzing.
-struct AgainArguments {
+struct ReplayArguments {
   std::optional<std::string> replay, minimise;
 
   bool given() const { return replay || minimise; }
@@ -43,8 +43,8 @@ struct AgainArguments {
 
 /// `what` was saved: "motion"; `type`: "FOLDER". After add_fuzz_options and whatever else has to do with fuzzing:
 /// options of these names exclude both.
-void add_again_options(CLI::App& command, AgainArguments& arguments, const std::string& what, const std::string& type,
-                       std::vector<std::string> excluded);
+void add_replay_options(CLI::App& command, ReplayArguments& arguments, const std::string& what, const std::string& type,
+                        std::vector<std::string> excluded);
 
 /// "NAME-minimised" in --out, for a saved folder NAME, so that nothing is overwritten (audit/fuzz/save_finding.h).
 std::filesystem::path minimised_folder(const FuzzArgumentsInCommon& arguments, const std::filesystem::path& saved);
@@ -65,7 +65,7 @@ inline ExitCode fuzz_exit_code(bool undecided, bool finding) {
 }
 
 /// The result of judging a saved item again.
-struct JudgedAgain {
+struct ReplayResult {
   bool unknown = false;                        ///< interrupted, or not decided
   std::optional<std::string> difference;       ///< what is wrong with it
   std::optional<std::filesystem::path> saved;  ///< where the smaller one is
@@ -75,7 +75,7 @@ struct JudgedAgain {
 };
 
 /// Writes it as a result of the schema "fuzz-replay". `place`: the JSON member with the path of what was saved.
-ExitCode tell_again(const Output& output, const JudgedAgain& judged, const char* place = "folder");
+ExitCode tell_replay(const Output& output, const ReplayResult& judged, const char* place = "folder");
 
 /// "finding: GENERATOR, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene", and `more` comes
 /// before the difference.

@@ -46,7 +46,7 @@ constexpr std::size_t most_candidates = 20'000;  // of --minimise
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
-  AgainArguments again;
+  ReplayArguments again;
   std::uint64_t verified_every = 50;
 };
 
@@ -220,16 +220,16 @@ ExitCode again(const ProofsArguments& arguments) {
   }
   const audit::ProofJudgement& judged = proof.judgement;
   const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
-  return tell_again(output, {.unknown = judged.stopped || interrupted(),
-                             .difference = finding ? std::optional(judged.difference) : std::nullopt,
-                             .saved = saved,
-                             .facts = {{"plain", word_of(judged.plain)},
-                                       {"words", judged.plain.words},
-                                       {"verified", judged.verified ? word_of(*judged.verified) : "not_asked"},
-                                       {"claim", claim}},
-                             .pairs = {"plain", "verified", "claim"},
-                             .text = judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + '\n',
-                             .about_saved = fmt::format(", a proof of {} bytes", proof.files.proof.size())});
+  return tell_replay(output, {.unknown = judged.stopped || interrupted(),
+                              .difference = finding ? std::optional(judged.difference) : std::nullopt,
+                              .saved = saved,
+                              .facts = {{"plain", word_of(judged.plain)},
+                                        {"words", judged.plain.words},
+                                        {"verified", judged.verified ? word_of(*judged.verified) : "not_asked"},
+                                        {"claim", claim}},
+                              .pairs = {"plain", "verified", "claim"},
+                              .text = judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + '\n',
+                              .about_saved = fmt::format(", a proof of {} bytes", proof.files.proof.size())});
 }
 
 }  // namespace
@@ -247,7 +247,7 @@ Command add_fuzz_proofs(CLI::App& fuzz) {
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  add_again_options(*command, arguments->again, "proof", "FOLDER", {});
+  add_replay_options(*command, arguments->again, "proof", "FOLDER", {});
   return {command, [arguments] { return arguments->again.given() ? again(*arguments) : run(*arguments); }};
 }
 

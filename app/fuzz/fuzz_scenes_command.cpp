@@ -37,7 +37,7 @@ constexpr const char* scenes_footer =
 
 struct ScenesArguments {
   FuzzArgumentsInCommon common;
-  AgainArguments again;
+  ReplayArguments again;
   std::optional<std::string> wrong_place;
 };
 
@@ -117,7 +117,7 @@ ExitCode again(const ScenesArguments& arguments) {
     require_output_files({{"--out", *saved}}, {file}, true);
     write_file(*saved, scene.dump(2) + '\n');
   }
-  return tell_again(
+  return tell_replay(
       output,
       {.unknown = judgement.stopped || interrupted(),
        .difference = judgement.difference,
@@ -135,7 +135,7 @@ Command add_fuzz_scenes(CLI::App& fuzz_app) {
   command->footer(scenes_footer);
   const auto arguments = std::make_shared<ScenesArguments>();
   add_fuzz_options(*command, arguments->common, "scenes");
-  add_again_options(*command, arguments->again, "scene", "SCENE.json", {});
+  add_replay_options(*command, arguments->again, "scene", "SCENE.json", {});
   command
       ->add_option("--wrong-place", arguments->wrong_place,
                    "With --replay or --minimise: the scene is wrong there, as in /bodies/0/mesh")

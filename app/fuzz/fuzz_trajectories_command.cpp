@@ -129,11 +129,11 @@ ExitCode again(const TrajectoriesArguments& arguments) {
     const std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
     audit::save_motion(motion, *found, command, *saved);
   }
-  return tell_again(output, {.unknown = interrupted() || (undecided && !found),
-                             .difference = found,
-                             .saved = saved,
-                             .facts = motion_facts(motion),
-                             .pairs = {"frames", "cells", "vertices"}});
+  return tell_replay(output, {.unknown = interrupted() || (undecided && !found),
+                              .difference = found,
+                              .saved = saved,
+                              .facts = motion_facts(motion),
+                              .pairs = {"frames", "cells", "vertices"}});
 }
 
 ExitCode run(TrajectoriesArguments& arguments) {
@@ -169,7 +169,7 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
       ->check(CLI::IsMember(names))
       ->allow_extra_args(false)
       ->type_name("NAME");
-  add_again_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings", "--family"});
+  add_replay_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings", "--family"});
   command->get_option("--library")->excludes(verified_every);
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -122,7 +122,7 @@ ExitCode answer(VerifyRequest& request, const VerdictOutputs& outputs, const Out
   if (outputs.github) write_standard_output(report::verify_annotations(request, outcome));
   // The JSON of 10,000 frames takes more memory than all else.
   Json json = outputs.results.json ? report::verify_json(request, outcome) : Json::object();
-  const report::WordsWanted wanted{outputs.results.json.value_or(""), outputs.results.verbose};
+  const report::TextOptions wanted{outputs.results.json.value_or(""), outputs.results.verbose};
   output.write("verify", report::verify_answer(request, outcome, wanted), std::move(json));
   return exit_code(outcome.verdict);
 }

@@ -53,7 +53,7 @@ constexpr const char* verify_footer =
 
 struct VerifyArguments {
   VerifyRequest request;
-  BodyWords bodies;
+  BodyArguments bodies;
   std::vector<std::filesystem::path> given;  ///< files that stand for frames: lists, series
   VerdictOutputs outputs;
   std::string time_limit;

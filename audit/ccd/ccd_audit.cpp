@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 /// The queries of a file with the first time of each that is in contact, rounded down: a double is later than the exact
 /// time just when it is greater than that.
-struct Exam {
+struct LabelledQueries {
   int kind = 0;
   std::vector<AskedQuery> queries;
   std::vector<std::optional<double>> truth;
@@ -31,38 +31,38 @@ QueryKind kind_of(const fs::path& path) {
 }
 
 /// Nothing when the user would not wait for it.
-std::optional<Exam> prepare(AuditedFile& file, const AuditRequest& request) {
+std::optional<LabelledQueries> prepare(AuditedFile& file, const AuditRequest& request) {
   const std::vector<QueryRecord> records = read_query_csv(file.path, file.kind);
   const bool edges = file.kind == QueryKind::edge_edge;
   const FeaturePair pair = edges ? FeaturePair::edge_edge : FeaturePair::vertex_face;
-  Exam exam{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
+  LabelledQueries labelled{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
   file.queries = records.size();
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (request.host.stopped()) return std::nullopt;
     const QueryRecord& record = records[i];
-    exam.queries.push_back(asked(record));
+    labelled.queries.push_back(asked(record));
     const auto exact = exact_contact({pair, 3, record.x_t0, record.x_t1});
     const bool contact = exact.has_value();
-    exam.truth.push_back(contact ? std::optional(exact->time) : std::nullopt);
+    labelled.truth.push_back(contact ? std::optional(exact->time) : std::nullopt);
     file.contacts += contact ? 1 : 0;
     file.labelled += record.label ? 1 : 0;
     if (record.label && *record.label != contact) file.wrong_labels.push_back(i + 1);
   }
-  return exam;
+  return labelled;
 }
 
 /// Compares the answers to one file with the truth.
-class Marking {
+class AnswerComparison {
  public:
-  Marking(const Exam& exam, const LibraryAnswers& answers, std::size_t max_reports)
-      : exam_(exam), answers_(answers), max_reports_(max_reports) {}
+  AnswerComparison(const LabelledQueries& labelled, const LibraryAnswers& answers, std::size_t max_reports)
+      : labelled_(labelled), answers_(answers), max_reports_(max_reports) {}
 
   FileAudit run() {
-    counts_.queries = exam_.queries.size();
+    counts_.queries = labelled_.queries.size();
     knows_times_ = std::any_of(answers_.answers.begin(), answers_.answers.end(), [](const GivenAnswer& answer) {
       return answer.state == AnswerState::answered && answer.code == NOLI_CCD_HIT && !std::isnan(answer.time);
     });
-    for (std::size_t i = 0; i < exam_.queries.size(); ++i) mark(i);
+    for (std::size_t i = 0; i < labelled_.queries.size(); ++i) mark(i);
     counts_.crashes = answers_.crashes;
     counts_.hangs = answers_.hangs;
     counts_.memory = answers_.memory;
@@ -104,7 +104,7 @@ class Marking {
   }
 
   void mark_answer(std::size_t i, bool hit, double time) {
-    const std::optional<double>& truth = exam_.truth[i];
+    const std::optional<double>& truth = labelled_.truth[i];
     if (hit && truth) return mark_time(i, time, *truth);
     if (hit) {
       ++counts_.false_positives;
@@ -134,7 +134,7 @@ class Marking {
     }
   }
 
-  const Exam& exam_;
+  const LabelledQueries& labelled_;
   const LibraryAnswers& answers_;
   std::size_t max_reports_;
   std::vector<AuditFinding> late_;  ///< reported where others leave room
@@ -164,21 +164,21 @@ class Audit {
  private:
   /// All libraries on one file, so that their times are of the same minute.
   void examine(std::size_t file) {
-    const auto exam = prepare(outcome_.files[file], request_);
-    if (!exam) return end_it();
-    const LibraryAnswers unit = ask_library(std::nullopt, exam->kind, exam->queries, 0, request_.host);
+    const auto labelled = prepare(outcome_.files[file], request_);
+    if (!labelled) return end_it();
+    const LibraryAnswers unit = ask_library(std::nullopt, labelled->kind, labelled->queries, 0, request_.host);
     if (!unit.complete) return end_it();
     outcome_.files[file].unit_ns = unit.ns_per_query;
     for (LibraryAudit& audit : outcome_.audits) {
       const LibraryAnswers answers =
-          ask_library(audit.plugin, exam->kind, exam->queries, audit.tolerance, request_.host);
-      FileAudit marked = Marking(*exam, answers, request_.max_reports).run();
-      marked.file = file;
+          ask_library(audit.plugin, labelled->kind, labelled->queries, audit.tolerance, request_.host);
+      FileAudit compared = AnswerComparison(*labelled, answers, request_.max_reports).run();
+      compared.file = file;
       audit.description = answers.description;
       if (!answers.said.empty()) audit.said = answers.said;
-      marked.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(exam->queries.size());
-      outcome_.complete = outcome_.complete && marked.complete;
-      audit.files.push_back(std::move(marked));
+      compared.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(labelled->queries.size());
+      outcome_.complete = outcome_.complete && compared.complete;
+      audit.files.push_back(std::move(compared));
       ++done_;
       if (request_.progress) request_.progress(share());
       if (is_over()) return end_it();

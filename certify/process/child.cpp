@@ -30,9 +30,9 @@ constexpr std::chrono::milliseconds usual_pause{50}, short_pause{2};
 
 /// Appends output up to a limit, then a note.
 void keep(std::string& words, std::string_view next) {
-  if (words.size() > most_words) return;  // the note has been added
-  words.append(next.substr(0, most_words - words.size()));
-  if (words.size() == most_words) words += "\n[cut off after 1 MB]\n";
+  if (words.size() > most_output) return;  // the note has been added
+  words.append(next.substr(0, most_output - words.size()));
+  if (words.size() == most_output) words += "\n[cut off after 1 MB]\n";
 }
 
 /// The first three descriptors are moved before the fourth, which may have the number of one of them.

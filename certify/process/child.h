@@ -24,7 +24,7 @@
 namespace noli {
 
 /// How much is kept of a program's output, and of its errors.
-constexpr std::size_t most_words = std::size_t{1} << 20;  ///< bytes
+constexpr std::size_t most_output = std::size_t{1} << 20;  ///< bytes
 
 /// How long a program may stay after closing its output. It has freed its memory by then.
 constexpr std::chrono::seconds time_to_stay{2};
@@ -49,7 +49,7 @@ std::function<bool()> stop_by(const std::atomic<bool>* flag);
 struct ProgramEnd {
   enum class Kind { exited, signalled, hung, stopped } kind = Kind::exited;
   int code = -1;         ///< the exit code, or the signal; -1 if it was ended
-  std::string out, err;  ///< its output and errors: at most most_words of each, then a note
+  std::string out, err;  ///< its output and errors: at most most_output of each, then a note
   double seconds = 0;    ///< from its start to its end, by the wall clock
 
   bool exited_with(int expected) const { return kind == Kind::exited && code == expected; }
@@ -116,7 +116,7 @@ class Child {
   /// stopped reading. Throws std::system_error.
   Written write(std::string_view bytes, const ProgramLimits& limits);
   /// The next `count` bytes of its output. Nothing if it is silent(), is stopped or runs out of time before.
-  /// Precondition: count <= most_words.
+  /// Precondition: count <= most_output.
   std::optional<std::string> read(std::size_t count, const ProgramLimits& limits);
   /// Closes its input, reads the rest, and waits until it ends. Ends it at a limit, or if it has closed its output and
   /// does not end within time_to_stay. Precondition: its output or its errors are piped.

@@ -76,7 +76,7 @@ std::vector<std::uint64_t> firsts_of_parts(const std::vector<std::uint64_t>& byt
 }
 
 /// What a checker says of a part, taken apart. `same()` is equal for all parts of one proof and one question.
-struct PartWords {
+struct PartOfAnswer {
   std::uint64_t first = 0, last = 0;
   std::string from, to;
   std::string verdict;                      ///< the first line, after "accepted: " and before the steps
@@ -115,9 +115,9 @@ bool read_whole_number(std::string_view text, std::uint64_t& number) {
 }
 
 /// Nothing if it is not what a checker says of a part that it accepts.
-std::optional<PartWords> part_of_words(const std::string& words) {
+std::optional<PartOfAnswer> part_of_answer(const std::string& words) {
   TextParts text(words);
-  PartWords part;
+  PartOfAnswer part;
   const bool accepted = text.before("accepted: ").empty();
   part.verdict = text.before("; steps ");
   const std::string steps = text.before("\n");
@@ -206,16 +206,16 @@ std::uint64_t ask_for_part(const std::string& steps, const fs::path& proof, std:
 }
 
 std::optional<std::string> joined_words(const std::vector<std::string>& words, std::uint64_t least_steps) {
-  std::vector<PartWords> parts;
+  std::vector<PartOfAnswer> parts;
   for (const std::string& text : words) {
-    auto part = part_of_words(text);
+    auto part = part_of_answer(text);
     const std::uint64_t next = parts.empty() ? 1 : parts.back().last + 1;
     if (!part || part->first != next || part->last < part->first) return std::nullopt;
     if (!parts.empty() && part->same() != parts[0].same()) return std::nullopt;
     parts.push_back(*std::move(part));
   }
   if (parts.empty() || parts.back().last < least_steps) return std::nullopt;
-  const PartWords &all = parts.front(), &end = parts.back();
+  const PartOfAnswer &all = parts.front(), &end = parts.back();
   return fmt::format(
       "accepted: {}\n"
       "{} steps={} {} from={} to={}\n"

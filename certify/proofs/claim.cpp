@@ -23,8 +23,8 @@ namespace {
 constexpr const char* schema = "noli-claim";
 constexpr int schema_version = 1;
 constexpr std::size_t longest_word = 100'000;  // of a command line
-/// Of all pairs: a checker repeats them, and of its output `most_words` are kept.
-constexpr std::size_t longest_list = most_words - 100'000;
+/// Of all pairs: a checker repeats them, and of its output `most_output` are kept.
+constexpr std::size_t longest_list = most_output - 100'000;
 
 bool is_excluded(const LabelPairs& pairs, std::uint32_t a, std::uint32_t b) {
   return pairs.contains({std::min(a, b), std::max(a, b)});

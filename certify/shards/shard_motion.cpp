@@ -11,7 +11,7 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/shards/request_json.h"
-#include "certify/simulate/windows_again.h"
+#include "certify/simulate/reproduced_windows.h"
 #include "certify/verification.h"
 #include "proofs/prover/chain.h"
 #include "trajectory/blocks/folder_lock.h"
@@ -74,7 +74,8 @@ class Windows : public ShardMotion {
  public:
   explicit Windows(const VerifyRequest& request) : request_(request), run_(request.frames.at(0)), counted_(run_) {
     require_can_be_asked(request, counted_);
-    if (request.reproduce) WindowsAgain::of(run_, request.scene_folder, counted_.scene(), {});  // are its files there?
+    if (request.reproduce)
+      ReproducedWindows::of(run_, request.scene_folder, counted_.scene(), {});  // are its files there?
     claim_ = shared_claim_json(claim_of_run(request, counted_.scene()));
   }
 

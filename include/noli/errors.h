@@ -64,10 +64,10 @@ class Stopped : public std::runtime_error {
   StopReason reason() const { return reason_; }
 
  protected:
-  struct Words {
+  struct Message {
     std::string all;
   };
-  Stopped(StopReason reason, const Words& words) : std::runtime_error(words.all), reason_(reason) {}
+  Stopped(StopReason reason, const Message& words) : std::runtime_error(words.all), reason_(reason) {}
 
  private:
   StopReason reason_;

@@ -48,7 +48,7 @@ inline std::vector<BodyFrames> bodies_in_files(const pybind11::dict& options, st
 /// What the command prints, without its advice, which is about options of the command.
 inline std::string text_of(report::Answer answer, bool details = false) {
   answer.next.clear();
-  return answer.words_above(details) + answer.last_line();
+  return answer.text_above(details) + answer.last_line();
 }
 
 /// "time_limit", in seconds from now.

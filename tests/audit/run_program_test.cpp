@@ -76,7 +76,7 @@ TEST(RunProgram, KeepsAMegabyteOfWhatAProgramSays) {
   EXPECT_EQ(whole.out.size(), 1'000'000u);
   const ProgramEnd cut = shell("head -c 50000000 /dev/zero; echo end >&2; exit 3");
   EXPECT_TRUE(cut.exited_with(3));
-  EXPECT_LT(cut.out.size(), most_words + 100);
+  EXPECT_LT(cut.out.size(), most_output + 100);
   EXPECT_NE(cut.out.find("cut off after 1 MB"), std::string::npos);
   EXPECT_EQ(cut.err, "end\n");
 }

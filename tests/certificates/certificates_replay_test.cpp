@@ -12,17 +12,17 @@
 #include <limits>
 
 #include "certificates/cells.h"
-#include "certificates_dance.h"
+#include "certificates_kicks.h"
 #include "tests/support/every_pair.h"
 
 namespace noli::certificates {
 namespace {
 
 using test::Breakpoint;
-using test::Dance;
-using test::DanceOptions;
 using test::Fault;
+using test::KickOptions;
 using test::MotionSegment;
+using test::RandomKicks;
 using test::Replay;
 using test::ReplayCounts;
 using test::Track;
@@ -116,21 +116,21 @@ TEST(Replay, AgreesWithDistancesAtManyTimes) {
   EXPECT_GT(within, 50);
 }
 
-// --- Dances ----------------------------------------------------------------------------------------------------------
+// --- Random kicks ---------------------------------------------------------------------------------------------------
 
 struct Sum {
-  std::uint64_t kicks = 0, dances = 0, late = 0;
+  std::uint64_t kicks = 0, scenes = 0, late = 0;
   ReplayCounts replayed;
   CertificateCounts certificates;
 };
 
 /// Sizes, positions, speeds and times of all scales, chosen by `number`.
-DanceOptions options_of(std::uint64_t number) {
+KickOptions options_of(std::uint64_t number) {
   noli::test::Random random(number);
   const auto one_of = [&random](std::initializer_list<double> values) {
     return values.begin()[random.below(static_cast<int>(values.size()))];
   };
-  DanceOptions o;
+  KickOptions o;
   o.seed = number;
   o.eta = one_of({0x1p-20, 1e-3, 0.01, 3});
   o.beat = one_of({1e-7, 1e-3, 1});
@@ -144,42 +144,42 @@ DanceOptions options_of(std::uint64_t number) {
 }
 
 template <int Dim, template <int, class> class Certificates>
-void dance(const DanceOptions& options, std::uint64_t kicks, Sum& sum) {
-  Dance<Dim, Certificates> dance(options);
-  ++sum.dances;
-  while (dance.kicks() < kicks) {
-    dance.run_window();
-    const auto late = dance.replay();
+void kick_scene(const KickOptions& options, std::uint64_t kicks, Sum& sum) {
+  RandomKicks<Dim, Certificates> scene(options);
+  ++sum.scenes;
+  while (scene.kicks() < kicks) {
+    scene.run_window();
+    const auto late = scene.replay();
     if (!late) continue;
     ++sum.late;
     if (options.fault == Fault::none) {
-      ADD_FAILURE() << "dance " << options.seed << ": " << name(late->kind) << " of vertices " << late->vertices[0]
+      ADD_FAILURE() << "scene " << options.seed << ": " << name(late->kind) << " of vertices " << late->vertices[0]
                     << " " << late->vertices[1] << " " << late->vertices[2] << " " << late->vertices[3];
     }
     break;
   }
-  sum.kicks += dance.kicks();
-  sum.replayed += dance.replayed();
-  sum.certificates += dance.certificates();
+  sum.kicks += scene.kicks();
+  sum.replayed += scene.replayed();
+  sum.certificates += scene.certificates();
 }
 
 template <template <int, class> class Certificates>
-Sum dances(std::uint64_t first, std::uint64_t count, std::uint64_t kicks, Fault fault = Fault::none) {
+Sum kick_scenes(std::uint64_t first, std::uint64_t count, std::uint64_t kicks, Fault fault = Fault::none) {
   Sum sum;
   for (std::uint64_t number = first; number < first + count; ++number) {
-    DanceOptions o = options_of(number);
+    KickOptions o = options_of(number);
     o.fault = fault;
-    number % 5 < 3 ? dance<3, Certificates>(o, kicks, sum) : dance<2, Certificates>(o, kicks, sum);
+    number % 5 < 3 ? kick_scene<3, Certificates>(o, kicks, sum) : kick_scene<2, Certificates>(o, kicks, sum);
   }
   return sum;
 }
 
 void print(const char* what, const Sum& s) {
   std::printf(
-      "%s: %.0f kicks in %.0f dances; layers %.0f on, %.0f off, deepest %u; plans %.0f (%.0f in pens), slabs %.0f; "
+      "%s: %.0f kicks in %.0f scenes; layers %.0f on, %.0f off, deepest %u; plans %.0f (%.0f in pens), slabs %.0f; "
       "replayed %.0f "
       "pieces (%.0f within twice the bound, %.0f by integers) and %.0f by boxes; nearest %.3g above the bound\n",
-      what, static_cast<double>(s.kicks), static_cast<double>(s.dances),
+      what, static_cast<double>(s.kicks), static_cast<double>(s.scenes),
       static_cast<double>(s.certificates.activations), static_cast<double>(s.certificates.deactivations),
       s.certificates.deepest, static_cast<double>(s.certificates.plans), static_cast<double>(s.certificates.penned),
       static_cast<double>(s.certificates.repairs), static_cast<double>(s.replayed.pieces),
@@ -197,14 +197,14 @@ void expect_busy(const Sum& s) {
 }
 
 TEST(CertificatesReplayed, CellsAreNeverLate) {
-  const Sum sum = dances<Cells>(0, 60, 2000);
+  const Sum sum = kick_scenes<Cells>(0, 60, 2000);
   print("cells", sum);
   EXPECT_GT(sum.certificates.penned * 30, sum.certificates.plans);
   expect_busy(sum);
 }
 
 TEST(CertificatesReplayed, TheLiteralAlgorithmIsNeverLate) {
-  const Sum sum = dances<EveryPair>(0, 30, 1000);
+  const Sum sum = kick_scenes<EveryPair>(0, 30, 1000);
   print("every pair", sum);
   expect_busy(sum);
 }
@@ -216,7 +216,7 @@ constexpr std::uint64_t part = 1;
 #endif
 
 TEST(CertificatesReplayed, SlowCellsAreNeverLateInTenMillionKicks) {
-  const Sum sum = dances<Cells>(1000, 500 / part, 20'000);
+  const Sum sum = kick_scenes<Cells>(1000, 500 / part, 20'000);
   print("cells", sum);
   EXPECT_GE(sum.kicks, 10'000'000U / part);
   EXPECT_GT(sum.certificates.penned * 30, sum.certificates.plans);
@@ -224,7 +224,7 @@ TEST(CertificatesReplayed, SlowCellsAreNeverLateInTenMillionKicks) {
 }
 
 TEST(CertificatesReplayed, SlowTheLiteralAlgorithmIsNeverLateInAMillionKicks) {
-  const Sum sum = dances<EveryPair>(1000, 100 / part, 10'000);
+  const Sum sum = kick_scenes<EveryPair>(1000, 100 / part, 10'000);
   print("every pair", sum);
   EXPECT_GE(sum.kicks, 1'000'000U / part);
   expect_busy(sum);
@@ -235,8 +235,8 @@ class CertificatesWithAFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(CertificatesWithAFault, AreFoundLate) {
   const Fault fault = GetParam();
-  const Sum cells = dances<Cells>(0, 10, 3000, fault), literal = dances<EveryPair>(0, 10, 3000, fault);
-  std::printf("fault %d: found in %d and %d of %d dances\n", static_cast<int>(fault), static_cast<int>(cells.late),
+  const Sum cells = kick_scenes<Cells>(0, 10, 3000, fault), literal = kick_scenes<EveryPair>(0, 10, 3000, fault);
+  std::printf("fault %d: found in %d and %d of %d scenes\n", static_cast<int>(fault), static_cast<int>(cells.late),
               static_cast<int>(literal.late), 10);
   EXPECT_GE(cells.late, 3U);
   EXPECT_GE(literal.late, 3U);

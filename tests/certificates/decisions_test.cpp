@@ -7,15 +7,15 @@
 #include <gtest/gtest.h>
 
 #include "certificates/cells.h"
-#include "certificates_dance.h"
+#include "certificates_kicks.h"
 #include "tests/support/every_pair.h"
 
 namespace noli::certificates {
 namespace {
 
-using test::Dance;
-using test::DanceOptions;
 using test::Fault;
+using test::KickOptions;
+using test::RandomKicks;
 
 constexpr double for_ever = std::numeric_limits<double>::infinity();
 
@@ -113,21 +113,21 @@ struct Checked {
 };
 
 template <int Dim, template <int, class> class Certificates>
-void check(const DanceOptions& options, Checked& sum) {
-  Dance<Dim, Certificates, true> dance(options);
-  while (dance.kicks() < 100) {
-    dance.run_window();
-    dance.replay();
+void check(const KickOptions& options, Checked& sum) {
+  RandomKicks<Dim, Certificates, true> scene(options);
+  while (scene.kicks() < 100) {
+    scene.run_window();
+    scene.replay();
   }
-  sum.decisions += dance.decisions();
-  sum.wrong += dance.wrong_decisions();
+  sum.decisions += scene.decisions();
+  sum.wrong += scene.wrong_decisions();
 }
 
 template <template <int, class> class Certificates>
 Checked check_all(Fault fault) {
   Checked sum;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    DanceOptions options;
+    KickOptions options;
     options.seed = seed;
     options.bodies = 3;
     options.offset = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 1e3 : 0x1p32;
@@ -138,7 +138,7 @@ Checked check_all(Fault fault) {
   return sum;
 }
 
-TEST(Decisions, OfDancesAreThoseOfTheRationals) {
+TEST(Decisions, OfRandomKicksAreThoseOfTheRationals) {
   const Checked cells = check_all<Cells>(Fault::none), literal = check_all<EveryPair>(Fault::none);
   EXPECT_EQ(cells.wrong, 0U);
   EXPECT_EQ(literal.wrong, 0U);

@@ -32,12 +32,12 @@ class Reference {
   std::set<std::pair<double, std::size_t>> queue_;
 };
 
-std::vector<Calendar::Said> said_of(std::size_t count) {
-  std::vector<Calendar::Said> said;
+std::vector<Calendar::EventData> said_of(std::size_t count) {
+  std::vector<Calendar::EventData> data;
   for (std::size_t i = 0; i < count; ++i) {
-    said.push_back({static_cast<std::uint16_t>(i % 3), static_cast<std::uint16_t>(i % 7)});
+    data.push_back({static_cast<std::uint16_t>(i % 3), static_cast<std::uint16_t>(i % 7)});
   }
-  return said;
+  return data;
 }
 
 void expect_order(const std::vector<double>& steps, double now, int events) {
@@ -48,8 +48,8 @@ void expect_order(const std::vector<double>& steps, double now, int events) {
     ASSERT_FALSE(calendar.empty());
     ASSERT_EQ(calendar.front().time(), time) << i;
     ASSERT_EQ(calendar.front().event, event) << i;
-    ASSERT_EQ(calendar.front().said.kind, event % 3) << i;
-    ASSERT_EQ(calendar.front().said.carries, event % 7) << i;
+    ASSERT_EQ(calendar.front().data.kind, event % 3) << i;
+    ASSERT_EQ(calendar.front().data.carries, event % 7) << i;
     ASSERT_GT(time, now);
     calendar.advance();
   }

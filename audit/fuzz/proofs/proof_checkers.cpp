@@ -120,7 +120,7 @@ class HostedChecker : public ProofChecker {
     if (!head) return std::nullopt;
     std::uint32_t length;
     std::memcpy(&length, head->data() + 1, 4);
-    if (length > most_words) return std::nullopt;
+    if (length > most_output) return std::nullopt;
     const auto words = host_->read(length, limits_);
     if (!words) return std::nullopt;
     ProofAnswer answer = answer_of(static_cast<unsigned char>((*head)[0]));

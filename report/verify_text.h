@@ -11,12 +11,12 @@
 namespace noli::report {
 
 /// What is to be said besides the verdict.
-struct WordsWanted {
+struct TextOptions {
   std::string result;    ///< the file that the result is written to, for the advice on what to do next; or nothing
   bool details = false;  ///< those that --verbose shows: of 10,000 frames, they are megabytes
 };
 
 /// Fills in text, details, next step and place.
-void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer);
+void put_text(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted, Answer& answer);
 
 }  // namespace noli::report

@@ -17,15 +17,15 @@
 
 namespace noli {
 
-class WindowsAgain {
+class ReproducedWindows {
  public:
   /// For the run in this folder, whose reader has given `scene`. `files`: the folder where the scene's file was, to
   /// which the paths of its meshes are relative; nothing: the run's own. Throws InputError when the run's scene.json is
   /// missing, is damaged, or gives another model than it did; UsageError when files that it names are missing.
-  static std::unique_ptr<WindowsAgain> of(const std::filesystem::path& run,
-                                          const std::optional<std::filesystem::path>& files, const RunScene& scene,
-                                          const std::function<bool()>& stop);
-  virtual ~WindowsAgain() = default;
+  static std::unique_ptr<ReproducedWindows> of(const std::filesystem::path& run,
+                                               const std::optional<std::filesystem::path>& files, const RunScene& scene,
+                                               const std::function<bool()>& stop);
+  virtual ~ReproducedWindows() = default;
 
   /// The positions of all vertices at the beginning of the run.
   virtual std::vector<Position> beginning() const = 0;

@@ -43,7 +43,7 @@ enum class Fault {
 inline double layer(double eta, std::uint32_t l) { return eta / std::sqrt(std::sqrt(static_cast<double>(l))); }
 
 /// Options of a random motion. Lengths in units of eta(1), times in units of the mean time between kicks of a vertex.
-struct DanceOptions {
+struct KickOptions {
   std::uint64_t seed = 0;
   double eta = 0.01, beat = 0.001;  ///< the units [m], [s]
   double offset = 0;                ///< of the origin
@@ -71,9 +71,9 @@ struct Followed {
 
 /// `Checked`: compares each decision of the certificates with rational arithmetic.
 template <int Dim, template <int, class> class Certificates, bool Checked = false>
-class Dance {
+class RandomKicks {
  public:
-  explicit Dance(const DanceOptions& o) : options_(o), random_(o.seed) {
+  explicit RandomKicks(const KickOptions& o) : options_(o), random_(o.seed) {
     const MovingBodies<Dim> bodies = BodiesMaker<Dim>(random_, o.eta).make(o.bodies);
     mesh_ = bodies.mesh;
     group_ = bodies.group;
@@ -91,8 +91,8 @@ class Dance {
     begin_window();
     certificates_->start(t_);
   }
-  Dance(const Dance&) = delete;
-  Dance& operator=(const Dance&) = delete;
+  RandomKicks(const RandomKicks&) = delete;
+  RandomKicks& operator=(const RandomKicks&) = delete;
 
   /// Kicks each vertex about sixty times.
   void run_window() {
@@ -151,7 +151,7 @@ class Dance {
   int in_broad_phase() const { return 0; }
 
   void activate(const Stencil& s, std::uint16_t, std::uint32_t l, double t) {
-    if (l > 1000) throw std::logic_error("dance: a pair came too near");
+    if (l > 1000) throw std::logic_error("kicks: a pair came too near");
     change(s, l, options_.fault == Fault::late ? t + 0.02 * options_.beat : t);
   }
   void deactivate(const Stencil& s, std::uint16_t, std::uint32_t l) { change(s, l - 1, t_); }
@@ -215,7 +215,7 @@ class Dance {
   }
 
   void make_certificates() {
-    if constexpr (std::is_constructible_v<Certificates<Dim, Dance>, Dance&, const Mesh&>) {
+    if constexpr (std::is_constructible_v<Certificates<Dim, RandomKicks>, RandomKicks&, const Mesh&>) {
       certificates_.emplace(*this, mesh_);
     } else {
       certificates_.emplace(*this, mesh_, std::span<const Vector<Dim>>(home_), options_.slice * options_.beat);
@@ -319,7 +319,7 @@ class Dance {
     const std::size_t p = index_.at(s.key);
     Followed<Dim>& pair = followed_[p];
     const std::uint32_t before = pair.changes.back().layers;
-    if (layers != before + 1 && layers + 1 != before) throw std::logic_error("dance: not one layer more or less");
+    if (layers != before + 1 && layers + 1 != before) throw std::logic_error("kicks: not one layer more or less");
     if (pair.changes.back().t >= t) {
       pair.changes.back().layers = layers;
     } else {
@@ -328,7 +328,7 @@ class Dance {
     layers > 0 ? void(active_.insert(p)) : void(active_.erase(p));
   }
 
-  DanceOptions options_;
+  KickOptions options_;
   noli::test::Random random_;
   Mesh mesh_;
   std::vector<Vector<Dim>> home_, reach_;
@@ -345,7 +345,7 @@ class Dance {
   std::map<PairKey, std::size_t> index_;
   std::set<std::size_t> active_;  ///< pairs with layers
   std::vector<Track<Dim>> tracks_;
-  std::optional<Certificates<Dim, Dance>> certificates_;
+  std::optional<Certificates<Dim, RandomKicks>> certificates_;
   std::uint64_t kicks_ = 0, decisions_ = 0, wrong_decisions_ = 0;
   ReplayCounts counts_;
 };

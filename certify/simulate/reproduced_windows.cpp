@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/simulate/windows_again.h"
+#include "certify/simulate/reproduced_windows.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 template <int Dim>
-class Again : public WindowsAgain {
+class Again : public ReproducedWindows {
  public:
   Again(fs::path run, integrator::Model<double, Dim> model, std::function<bool()> stop)
       : run_(std::move(run)), model_(std::move(model)), stop_(std::move(stop)) {}
@@ -107,8 +107,9 @@ void require_files(const fs::path& run, const integrator::Scene& scene) {
 }
 
 template <int Dim>
-std::unique_ptr<WindowsAgain> make(const fs::path& run, const RunManifest& manifest, const integrator::Scene& scene,
-                                   const RunScene& expected, const std::function<bool()>& stop) {
+std::unique_ptr<ReproducedWindows> make(const fs::path& run, const RunManifest& manifest,
+                                        const integrator::Scene& scene, const RunScene& expected,
+                                        const std::function<bool()>& stop) {
   auto model = integrator::build_model<Dim>(scene).model;
   if (manifest.model_sha256 && *manifest.model_sha256 != hash_of<Dim>(model)) {
     throw InputError((run / "manifest.json").string(), "/model/sha256",
@@ -124,8 +125,8 @@ std::unique_ptr<WindowsAgain> make(const fs::path& run, const RunManifest& manif
 
 }  // namespace
 
-std::unique_ptr<WindowsAgain> WindowsAgain::of(const fs::path& run, const std::optional<fs::path>& files,
-                                               const RunScene& scene, const std::function<bool()>& stop) {
+std::unique_ptr<ReproducedWindows> ReproducedWindows::of(const fs::path& run, const std::optional<fs::path>& files,
+                                                         const RunScene& scene, const std::function<bool()>& stop) {
   const RunManifest manifest = read_manifest(run);
   const fs::path file = files.value_or(run) / "scene.json";
   const integrator::Scene read = integrator::parse_scene(noli::read_scene(run, manifest), file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/verify_words.h"
+#include "report/verify_text.h"
 
 #include <fmt/format.h>
 
@@ -45,9 +45,9 @@ std::string why_ended(const RunEnding& ending) {
   return on_one_line(*ending.why);
 }
 
-class Words {
+class VerifyText {
  public:
-  Words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer)
+  VerifyText(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted, Answer& answer)
       : request_(request), outcome_(outcome), wanted_(std::move(wanted)), answer_(answer) {}
 
   void operator()() {
@@ -328,14 +328,14 @@ class Words {
 
   const VerifyRequest& request_;
   const VerifyOutcome& outcome_;
-  WordsWanted wanted_;
+  TextOptions wanted_;
   Answer& answer_;
 };
 
 }  // namespace
 
-void put_words(const VerifyRequest& request, const VerifyOutcome& outcome, WordsWanted wanted, Answer& answer) {
-  Words(request, outcome, std::move(wanted), answer)();
+void put_text(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted, Answer& answer) {
+  VerifyText(request, outcome, std::move(wanted), answer)();
 }
 
 }  // namespace noli::report
