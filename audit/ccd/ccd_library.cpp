@@ -1,20 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "audit/ccd/ccd_library.h"
 
+#include <elf.h>
+#include <fmt/format.h>
 #include <noli/ccd_plugin.h>
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
+#include <fstream>
+#include <limits>
 #include <memory>
 #include <new>
 
-#include "audit/ccd/elf_header.h"
-#include "audit/ccd/library_in_process.h"
+#include <noli/errors.h>
+#include "audit/ccd/host/library.h"
+#include "trajectory/text.h"
 
 namespace noli::audit {
 namespace {
 
 namespace fs = std::filesystem;
+
+// --- Is it a library? ------------------------------------------------------------------------------------------------
+
+/// The fields that are in the same place for 32 and 64 bits.
+struct Head {
+  unsigned char ident[EI_NIDENT];
+  Elf64_Half type, machine;
+};
+
+std::optional<Head> head_of(const fs::path& file) {
+  Head head = {};
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(&head), sizeof head);
+  if (in.gcount() != sizeof head || std::memcmp(head.ident, ELFMAG, SELFMAG) != 0) return std::nullopt;
+  return head;
+}
+
+std::string described(const Head& head) {
+  const char* const bits = head.ident[EI_CLASS] == ELFCLASS64 ? "64" : "32";
+  const char* const order = head.ident[EI_DATA] == ELFDATA2LSB ? "little" : "big";
+  return fmt::format("machine {}, {} bits, {} endian", head.machine, bits, order);
+}
+
+/// The number of the machine, when its bytes are in the other order than ours.
+void swap_if_foreign(Head& head, const Head& own) {
+  if (head.ident[EI_DATA] == own.ident[EI_DATA]) return;
+  const auto swapped = [](Elf64_Half x) { return static_cast<Elf64_Half>((x >> 8) | (x << 8)); };
+  head.type = swapped(head.type);
+  head.machine = swapped(head.machine);
+}
+
+/// Throws InputError, with what the file is instead: the loader's own words for one that is no shared library of this
+/// machine are misleading. Reads the first bytes only; whether the rest is whole, the loader finds out.
+void require_shared_library(const fs::path& file) {
+  const auto refuse = [&](const std::string& problem) { throw InputError(file.string(), "", problem); };
+  std::error_code error;
+  if (!fs::exists(file, error)) refuse("does not exist; expected a shared library");
+  if (!fs::is_regular_file(file, error)) refuse("is not a file; expected a shared library");
+  if (!std::ifstream(file, std::ios::binary)) refuse("cannot be read");
+  std::optional<Head> head = head_of(file);
+  const std::optional<Head> own = head_of("/proc/self/exe");
+  if (!head) refuse("is not a shared library (it does not begin like an ELF file)");
+  if (!own) return;
+  swap_if_foreign(*head, *own);
+  if (described(*head) != described(*own)) {
+    refuse(fmt::format("is for another machine (ELF: {}; expected {})", described(*head), described(*own)));
+  }
+  if (head->type != ET_DYN)
+    refuse(fmt::format("is an ELF file, but not a shared library (type {}; expected 3)", head->type));
+}
+
+// --- In this process -------------------------------------------------------------------------------------------------
+
+/// For a debugger or a sanitizer, which are to see the library's call: asks each query once. Nothing protects this
+/// process from the library. Returns the answers without times of computation. Throws InputError if the library cannot
+/// be loaded, or lacks the functions.
+LibraryAnswers ask_in_process(const fs::path& library, int kind, const std::vector<AskedQuery>& queries,
+                              double tolerance) {
+  HostStatus status;
+  const Library loaded = load(status, library.c_str(), false);
+  require_loaded(library, status, {});
+  LibraryAnswers result;
+  result.endings.resize(queries.size());
+  result.description = status.description.data();
+  for (AskedQuery query : queries) {  // a copy, which the library may write to
+    GivenAnswer answer{};
+    answer.time = std::numeric_limits<double>::quiet_NaN();
+    try {
+      answer.code = loaded.ask(kind, query.x_t0.data(), query.x_t1.data(), tolerance, &answer.time);
+    } catch (const std::exception& error) {
+      throw InputError(
+          library.string(), "",
+          fmt::format("threw an exception: {}; `catch throw` in gdb stops where", on_one_line(error.what())));
+    }
+    answer.state = AnswerState::answered;
+    result.answers.push_back(answer);
+  }
+  return result;
+}
+
+// --- In processes of its own -----------------------------------------------------------------------------------------
 
 /// The queries of one file, asked by as many hosts as it takes. A library may write anywhere in the memory that is
 /// shared with it: what is read there is looked at first, and nothing here counts by what is there.

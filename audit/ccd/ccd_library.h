@@ -2,7 +2,7 @@
 //
 // Asks somebody else's library of continuous collision detection (include/noli/ccd_plugin.h) in a process of its own. A
 // crash, a call that does not come back, or one that takes all memory costs that process; the next one goes on behind
-// the query that did it.
+// the query that did it. With HostOptions::in_process, asks it in this process, which nothing then protects.
 //
 // What this does not do: it does not know what is right (audit/ccd/ccd_audit.h).
 #pragma once

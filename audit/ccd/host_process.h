@@ -28,7 +28,7 @@ struct HostOptions {
   std::uint64_t most_memory = 2'000'000'000;  ///< resident bytes of the process
   std::uint64_t most_hangs = 10;              ///< then the rest is not asked
   bool sandbox = false;                       ///< the library may not touch other processes and files (host/sandbox.h)
-  bool in_process = false;                    ///< queries are asked in this process (audit/ccd/library_in_process.h)
+  bool in_process = false;                    ///< queries are asked in this process, for a debugger or a sanitizer
   int search_limit = 600;                     ///< a search for candidates may take so many times as long as a query
   const std::atomic<bool>* stop = nullptr;
   Deadline deadline;
