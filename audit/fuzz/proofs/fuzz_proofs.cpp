@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "audit/fuzz/proofs/minimise_mutant.h"
 #include "audit/fuzz/save_finding.h"
 
 namespace noli::audit {

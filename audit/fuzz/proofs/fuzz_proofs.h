@@ -65,6 +65,12 @@ struct ProofFuzzReport : FuzzTotals {
 void save_finding(const ProofFiles& files, const std::string& what, const std::string& difference,
                   const std::filesystem::path& folder);
 
+/// Makes a mutant that fails as like the good proof as possible: its files, blocks and bytes are put back one by one
+/// while it still fails. No token is left out, so a mutant of another length stays as long as it is. Precondition:
+/// fails(mutant).
+ProofMutant minimise(const ProofCase& from, const ProofMutant& mutant,
+                     const std::function<bool(const ProofMutant&)>& fails);
+
 /// Runs until a limit; with a count and without a corpus the report is the same for any number of threads. What
 /// cannot be saved is in `not_saved`. Throws InputError for a corpus that cannot be read, std::system_error when
 /// the machine fails.

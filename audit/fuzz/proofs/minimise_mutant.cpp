@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/fuzz/proofs/minimise_mutant.h"
-
+//
+// Makes a mutant that fails as like the good proof as possible.
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include <noli/errors.h>
+#include "audit/fuzz/proofs/fuzz_proofs.h"
 
 namespace noli::audit {
 
