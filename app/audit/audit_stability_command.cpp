@@ -19,7 +19,6 @@
 #include "app/process.h"
 #include "audit/ccd/audit_report.h"
 #include "audit/numerics/stability.h"
-#include "audit/numerics/stability_figure.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"

@@ -78,4 +78,8 @@ struct StabilityReport {
 /// Throws std::runtime_error if the program does not exist, std::system_error if a system call fails.
 StabilityReport audit_stability(const std::vector<StabilityRow>& rows, const StabilityOptions& options);
 
+/// A figure with a line of boxes for each row, from the ordinary to the extreme. Each box has its value, and the energy
+/// error if there is one. Green: holds; yellow: fails closed, with the reason; red: a finding.
+std::string stability_svg(const StabilityReport& report);
+
 }  // namespace noli::audit

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "audit/numerics/stability_figure.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
 
+#include "audit/numerics/stability.h"
 #include "report/figures/svg.h"
 
 namespace noli::audit {
