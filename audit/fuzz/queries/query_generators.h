@@ -8,14 +8,21 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "audit/fuzz/queries/disguise.h"
+#include "audit/fuzz/queries/recipes.h"
 
 namespace noli::audit {
+
+/// A query with doubles, and its answer where the construction implies it.
+struct Generated {
+  AnyQuery query;
+  std::optional<ContactKind> truth;
+};
 
 /// Indexed by ContactKind.
 using Answers = std::array<bool, 4>;
@@ -64,5 +71,19 @@ std::vector<QueryFamily> families_of_number();    ///< special numbers
 
 /// One of the declared answers, each as likely.
 ContactKind random_answer(const Answers& declared, Random& random);
+
+// Finishing a query: exact changes that keep its answer but hide the special position that it was constructed in, then
+// the step from whole numbers to doubles.
+
+/// Exponents of the powers of two with which the axes are multiplied.
+using AxisExponents = std::array<int, 3>;
+
+/// Sheared and turned (whole_query.h), its points renamed (the other edge first, the corners of the face in another
+/// order), and each axis multiplied by a power of two. Preconditions: what comes out is exactly a double;
+/// coordinates below 2^53 even after that. Throws std::logic_error when a whole number is too large.
+Generated finish(Made made, Random& random, const AxisExponents& exponents);
+
+/// The same with one power of two between 2^-40 and 1 for all axes.
+Generated finish(Made made, Random& random);
 
 }  // namespace noli::audit
