@@ -81,7 +81,7 @@ class Explaining {
     add_works(row, energy);
   }
 
-  /// The lists have the same lengths in every row (certify/runs/run_series_check.h).
+  /// The lists have the same lengths in every row (certify/runs/run_series_reader.cpp).
   static void add_works(const SeriesRow& row, EnergySummary& energy) {
     for (std::size_t k = 0; k < force_kinds; ++k) {
       energy.damping_work += row.damping_work[k];
