@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The steps that shards decided, read one shard at a time.
+// What shards decided, read one shard at a time: whole steps, or the parts of one step (--divide).
 #pragma once
 
 #include <optional>
@@ -12,10 +12,12 @@
 #include "certify/shards/shard_file.h"
 #include "certify/shards/shard_folder.h"
 #include "certify/shards/step_json.h"
+#include "certify/verification.h"
 #include "proofs/prover/chain.h"
 
 namespace noli {
 
+/// Whole steps, or windows.
 class DecidedShards : public DecidedSteps {
  public:
   /// `of_run`: they are about windows.
@@ -57,6 +59,27 @@ class DecidedShards : public DecidedSteps {
   std::uint64_t task_ = 0, step_ = 0;
   std::string first_window_;  ///< its hash
   StepTimes times_;           ///< of that step
+};
+
+/// One step that shards decided in parts: joins what they found, and the tokens of their proofs.
+class DecidedParts : public DecidedShards {
+ public:
+  /// `request`: the one of the folder.
+  DecidedParts(ShardFolder folder, const VerifyRequest& request)
+      : DecidedShards(std::move(folder), false), max_reports_(reports_of_step(request)) {}
+
+  StepResult result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) override;
+  StepResult with_positions(StepResult result, int dimension, std::span<const Position> x_t0,
+                            std::span<const Position> x_t1) override;
+  bool in_parts() const override { return true; }
+  void blocks(const std::function<void(FourLetters, std::string_view)>& take) override;
+
+ private:
+  std::string words_of(std::uint64_t task) const override;
+
+  std::size_t max_reports_;
+  std::vector<FirstInStep> firsts_;  ///< of the parts that have one
+  bool all_proved_ = false;
 };
 
 }  // namespace noli

@@ -9,7 +9,7 @@
 #include <noli/errors.h>
 #include <noli/sequence.h>
 #include "certify/process/scratch_folder.h"
-#include "certify/shards/decided_parts.h"
+#include "certify/shards/decided_shards.h"
 #include "certify/shards/request_json.h"
 #include "certify/shards/shard_motion.h"
 #include "certify/shards/shards.h"
