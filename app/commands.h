@@ -31,6 +31,8 @@ Command add_schema(CLI::App& app);
 
 /// `noli fuzz` and `noli audit` with all that is below them or, where they are not built, what says so.
 std::vector<Command> add_audits(CLI::App& app);
+/// Whether they are built.
+bool has_audits();
 
 // Below `noli fuzz` and `noli audit`.
 Command add_fuzz_queries(CLI::App& fuzz);

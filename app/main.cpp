@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <new>
@@ -21,11 +23,14 @@
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/output.h"
-#include "app/parts.h"
 #include "app/process.h"
 #include "app/ranks/ranks.h"
 #include "app/terminal.h"
 #include "app/wrong_usage.h"
+#include "certify/process/this_program.h"
+#include "certify/proofs/checker.h"
+#include "report/figures/png.h"
+#include "report/page/report_page.h"
 #include "trajectory/stop.h"
 
 namespace noli::app {
@@ -49,6 +54,24 @@ ExitCode complain(ExitCode code, const std::string& message) {
   std::fputs(fmt::format("noli: {} {}\n", inked("error:", Ink::red, STDERR_FILENO), on_one_line(message)).c_str(),
              stderr);
   return code;
+}
+
+bool is_beside_this(const char* program) {
+  std::error_code error;
+  return std::filesystem::exists(beside_this_program(program), error);
+}
+
+/// Which parts this noli was built or installed without: "without reports, pictures", or "with all parts".
+std::string parts_text() {
+  std::vector<const char*> without;
+  if (!has_checker(Checker::plain)) without.push_back("proof checker");
+  if (!has_checker(Checker::verified)) without.push_back("verified checker");
+  if (!report::has_report_page()) without.push_back("reports");
+  if (!report::can_write_png()) without.push_back("pictures");
+  if (!is_beside_this("noli_series")) without.push_back("series.h5");
+  if (!is_beside_this("noli_mpi.so") && !is_beside_this(NOLI_MPI_FOLDER "/noli_mpi.so")) without.push_back("MPI");
+  if (!has_audits()) without.push_back("fuzz and audit");
+  return without.empty() ? "with all parts\n" : fmt::format("without {}\n", fmt::join(without, ", "));
 }
 
 std::string version_and_parts() { return version_text() + parts_text(); }

@@ -2,7 +2,6 @@
 //
 // What stands for `noli fuzz` and `noli audit` in a noli that is built without them (NOLI_WITH_AUDIT=OFF).
 #include "app/commands.h"
-#include "app/parts.h"
 
 #include <noli/errors.h>
 

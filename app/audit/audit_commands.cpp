@@ -2,7 +2,6 @@
 //
 // The commands below `noli fuzz` and `noli audit`.
 #include "app/commands.h"
-#include "app/parts.h"
 
 namespace noli::app {
 
