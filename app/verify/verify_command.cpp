@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <noli/errors.h>
 #include <noli/verify.h>
@@ -13,10 +14,13 @@
 #include "app/help.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/process.h"
+#include "app/progress.h"
 #include "app/verify/verdict.h"
-#include "app/verify/verify_meshes.h"
 #include "app/verify/verify_shards.h"
+#include "certify/proofs/proof_route.h"
 #include "report/meshes_report.h"
+#include "report/verify_report.h"
 #include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
@@ -74,6 +78,39 @@ void name_frames(VerifyArguments& arguments) {
   }
   request.reading.bodies = bodies_of(arguments.bodies, request.order, request.order_notes);
   request.frames = files_of(request.reading.bodies);
+}
+
+/// What is kept of each of several meshes.
+struct MeshesWanted {
+  bool json = false, details = false;
+};
+
+report::MeshVerdict verify_mesh(VerifyRequest request, MeshesWanted wanted, ProgressBars& bars, double done,
+                                double share) {
+  const std::string file = request.frames[0].string();
+  ProofRoute route(request);
+  request.progress = [&](std::string_view work, double part) { bars.show(work, done + share * part, file); };
+  VerifyOutcome outcome = run_verify(request);
+  route.check(outcome);
+  Json json = wanted.json ? report::verify_json(request, outcome) : Json();
+  report::Answer answer = report::verify_answer(request, outcome, {.result = "", .details = wanted.details});
+  return {file, outcome.verdict, std::move(answer), std::move(outcome.notes), outcome.claim.empty, std::move(json)};
+}
+
+/// Verifies each file of the request alone. When the process is interrupted, the files that are left are undecided.
+/// Throws as run_verify() and ProofRoute::check().
+std::vector<report::MeshVerdict> verify_meshes(VerifyRequest request, MeshesWanted wanted) {
+  std::vector<report::MeshVerdict> meshes;
+  ProgressBars bars;
+  const auto files = std::exchange(request.frames, {});  // not copied for each of them
+  const double share = 1 / static_cast<double>(files.size());
+  request.stop = &interrupted();
+  for (const auto& file : files) {
+    VerifyRequest one = request;
+    one.frames = {file};
+    meshes.push_back(verify_mesh(std::move(one), wanted, bars, share * static_cast<double>(meshes.size()), share));
+  }
+  return meshes;
 }
 
 /// Files with different meshes, each at rest.
