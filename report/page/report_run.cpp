@@ -4,17 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
 #include <noli/errors.h>
+#include "certify/json.h"
 #include "certify/not_compared.h"
 #include "certify/proofs/prove_run.h"
 #include "certify/runs/frame_times.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
-#include "report/page/report_end.h"
 #include "report/page/report_plots.h"
 #include "report/page/report_scene.h"
 #include "report/page/report_verdict.h"
@@ -32,6 +33,60 @@ constexpr double most_samples = 1e6;
 void stop_if_interrupted(const std::filesystem::path& what) {
   if (stop_asked()) throw ReadInterrupted(what.string());
 }
+
+// --- What ended a run ------------------------------------------------------------------------------------------------
+// As its log tells it; a log that does not say it, or is damaged, gives no words.
+
+std::string feature(const Json& vertices, const BodyNames& names) {
+  const auto list = vertices.get<std::vector<VertexId>>();
+  return list.empty() || list.size() > 3 ? "something" : names.feature(list);
+}
+
+std::string words_of(const Json& end, const BodyNames& names) {
+  if (end.at("end") == "contact") {
+    const Json& features = end.at("first").at("features");
+    return fmt::format("{} meets {}, {}, at {} s", feature(features.at(0), names), feature(features.at(1), names),
+                       end.at("first").at("kind").get<std::string>(), digits17(end.at("first_time").get<double>()));
+  }
+  if (end.at("end") == "unstable") {
+    const Json& energy = end.at("energy");
+    return fmt::format("from {:.3g} J to {:.3g} J at {} s", energy.at("begin").get<double>(),
+                       energy.at("there").get<double>(), digits17(energy.at("time").get<double>()));
+  }
+  if (end.at("end") != "too_near") return "";
+  const Json& near = end.at("too_near");
+  return fmt::format("{}, at {} s", near.at("names").get<std::string>(), digits17(near.at("time").get<double>()));
+}
+
+/// Of the part that ended last: "edge a[1]-a[2] meets edge b[6]-b[7], crossing, at 0.25 s" or "vertex a[0] and vertex
+/// b[1], at 0.25 s", of energy "from 1 J to 3 J at 0.25 s"; or nothing.
+std::string what_ended(const LogFacts& log) {
+  try {
+    return words_of(log.last_end_line, log.names);
+  } catch (const Json::exception&) {
+    return "";
+  }
+}
+
+/// The features that met and when, as a page's member `focus` (report_page.h); null unless a contact ended the run.
+Json pair_that_ended(const LogFacts& log) {
+  if (log.going_on || log.last_end != "contact") return nullptr;
+  try {
+    const Json& first = log.last_end_line.at("first");
+    const auto features = first.at("features").get<std::array<std::vector<VertexId>, 2>>();
+    for (const auto& feature : features) {
+      if (feature.empty() || feature.size() > 3) return nullptr;
+    }
+    return {{"meets", true},
+            {"features", features},
+            {"time", log.last_end_line.at("first_time").get<double>()},
+            {"words", "The run ends before this contact: " + words_of(log.last_end_line, log.names) + "."}};
+  } catch (const Json::exception&) {
+    return nullptr;
+  }
+}
+
+// --- Its page --------------------------------------------------------------------------------------------------------
 
 class Run {
  public:
