@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts numbers to and from bytes, little-endian on every machine. Doubles are their IEEE 754 binary64 bits.
-// Internal to the files of a run.
+// Converts numbers to and from bytes: for block files little-endian on every machine, for other formats in either byte
+// order. Doubles are their IEEE 754 binary64 bits.
 #pragma once
 
 #include <algorithm>
@@ -60,6 +60,15 @@ void get_all(const char* bytes, std::span<T> values) {
   } else {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<T>(bytes + i * sizeof(T));
   }
+}
+
+/// An integer, float or double in a file of another format. Precondition: `bytes` has at least sizeof(Number).
+template <class Number>
+Number number_from_bytes(const char* bytes, bool big_endian) {
+  std::array<char, sizeof(Number)> raw{};
+  std::memcpy(raw.data(), bytes, sizeof(Number));
+  if (big_endian != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
+  return std::bit_cast<Number>(raw);
 }
 
 /// The coordinates of all positions, one after another.

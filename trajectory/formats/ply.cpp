@@ -15,9 +15,9 @@
 #include <type_traits>
 
 #include <noli/errors.h>
+#include "trajectory/blocks/bytes.h"
 #include "trajectory/cells.h"
 #include "trajectory/formats/ply_header.h"
-#include "trajectory/number_bytes.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 

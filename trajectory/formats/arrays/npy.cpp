@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include <noli/errors.h>
-#include "trajectory/number_bytes.h"
+#include "trajectory/blocks/bytes.h"
 #include "trajectory/text.h"
 
 namespace noli {

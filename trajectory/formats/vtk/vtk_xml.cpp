@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include <noli/errors.h>
-#include "trajectory/number_bytes.h"
+#include "trajectory/blocks/bytes.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
