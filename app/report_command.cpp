@@ -24,7 +24,6 @@
 #include "report/page/report_results.h"
 #include "report/page/report_run.h"
 #include "report/page/report_verdict.h"
-#include "trajectory/formats/base64.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/open_frames.h"

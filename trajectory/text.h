@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shared by the readers of text: lines with their numbers, words, numbers that are a whole word, and loading a file.
+// Shared by the writers of XML and HTML: escaped text, and base64.
 //
 // Nothing here depends on the locale; decimal numbers are rounded correctly (std::from_chars).
 #pragma once
@@ -83,6 +84,9 @@ class Words {
 
 /// Escapes text for content and attributes of XML and HTML. Characters that XML does not allow are dropped.
 std::string escaped_markup(std::string_view text);
+
+/// Encodes bytes as text in base64 (RFC 4648, section 4).
+std::string base64(std::string_view bytes);
 
 /// Parses the whole of `word` as a number of type T (a leading '+' is allowed). Returns an error code like
 /// std::from_chars: invalid_argument when it is not such a number, result_out_of_range when T cannot hold it.

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trajectory/formats/base64.h"
 #include "trajectory/text.h"
 
 #ifdef NOLI_WITH_REPORT

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "trajectory/blocks/bytes.h"
-#include "trajectory/formats/base64.h"
 #include "trajectory/formats/vtk/vtk_cell_reader.h"
 #include "trajectory/text.h"
 #include "trajectory/write_file.h"
