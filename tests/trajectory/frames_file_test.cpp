@@ -8,7 +8,6 @@
 
 #include <noli/errors.h>
 #include "support.h"
-#include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/open_frames.h"
 
 namespace noli {

@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include <noli/errors.h>
 #include "trajectory/blocks/frames_file.h"
@@ -11,12 +14,51 @@
 #include "trajectory/formats/arrays/converted_frames.h"
 #include "trajectory/formats/arrays/frames_in_memory.h"
 #include "trajectory/formats/arrays/stream_frames.h"
-#include "trajectory/formats/block_frames.h"
 #include "trajectory/formats/frame_inputs.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/formats/joined_frames.h"
+#include "trajectory/formats/stored_frames.h"
 
 namespace noli {
+namespace {
+
+/// The frames in a block file of frames.
+class BlockFrames : public StoredFrames {
+ public:
+  /// Throws InputError: no such file, or none of frames.
+  explicit BlockFrames(const std::filesystem::path& path)
+      : StoredFrames({path}), reader_(path), count_(reader_->count()) {
+    FrameFacts& facts = facts_of(0);
+    facts.numbers = "float64";
+    facts.vertices = reader_->mesh().vertex_count;
+    facts.cells = reader_->mesh().cell_count();
+    facts.frames = count_;
+  }
+
+  std::optional<std::size_t> count() const override { return count_; }
+  std::optional<Frame> read(std::size_t k) override {
+    if (k < next_) {
+      reader_.emplace(facts()[0].file);
+      next_ = 0;
+    }
+    std::optional<std::vector<Position>> positions;
+    for (; next_ <= k; ++next_) {
+      positions = reader_->next();
+      if (!positions) break;
+    }
+    require_unchanged();
+    if (!positions) return std::nullopt;
+    if (k + 1 == count_) require_same_bytes();
+    return Frame{reader_->mesh(), std::move(*positions)};
+  }
+  std::vector<std::string> notes() const override { return {}; }
+
+ private:
+  std::optional<FramesReader> reader_;
+  std::size_t next_ = 0, count_ = 0;
+};
+
+}  // namespace
 
 bool holds_frames(const std::filesystem::path& path) {
   return is_frame_name(path) || is_array_name(path) || is_hdf5_name(path) || is_frames_file(path);
