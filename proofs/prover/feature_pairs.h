@@ -102,7 +102,7 @@ template <int Dim>
 
 /// All pairs of a feature on the corners a_part of a with a feature on the corners b_part of b.
 template <int Dim>
-PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, CornerMask b_part) {
+PairSet pairs_within(const CellIndices& a, CornerMask a_part, const CellIndices& b, CornerMask b_part) {
   const bool a_whole = a_part == all_corners(a.corners), b_whole = b_part == all_corners(b.corners);
   const unsigned a_edges = detail::edges_in(a_part), b_edges = detail::edges_in(b_part);
   return detail::pair_set<Dim>(a_part, a_edges, a_whole && a.corners == 3, b_part, b_edges, b_whole && b.corners == 3) |
@@ -113,7 +113,7 @@ PairSet pairs_within(const CellNames& a, CornerMask a_part, const CellNames& b, 
 /// The pairs of features that belong to this pair of cells, and those that may: other cells may leave over the same
 /// pairs (Leftovers::counted_at decides).
 template <int Dim>
-PairSet pairs_owned(const CellNames& a, const CellNames& b) {
+PairSet pairs_owned(const CellIndices& a, const CellIndices& b) {
   const PairSet pairs = detail::pair_set<Dim>(a.owned & 7, a.owned >> 3 & 7, a.corners == 3, b.owned & 7,
                                               b.owned >> 3 & 7, b.corners == 3);
   const CellShape a_shape = shape_of(a), b_shape = shape_of(b);

@@ -46,7 +46,7 @@ class Prepared : public ChainMemory {
   void gather_cells(const Mesh& mesh, int threads) {
     const auto order = hierarchy_->leaf_cells();
     for_each_in_pieces(order.size(), threads, [&](std::size_t i) {
-      cells_[i] = {names_of(mesh, features_, order[i]), vertices_.get()};
+      cells_[i] = {indices_of(mesh, features_, order[i]), vertices_.get()};
     });
     leftovers_.emplace(order.size(), [this](std::size_t i) {
       return Leftovers::NumberedShape{shape_of(cells_[i]), cells_[i].cell};

@@ -27,7 +27,7 @@ StepCell<Dim> step_cell(const std::array<Position, 3>& x_t0, const std::array<Po
   Mesh mesh;
   mesh.vertex_count = 3;
   mesh.faces = {{0, 1, 2}};
-  return {names_of(mesh, find_owners(mesh, false), 0), vertices.data()};
+  return {indices_of(mesh, find_owners(mesh, false), 0), vertices.data()};
 }
 
 template <int Dim>

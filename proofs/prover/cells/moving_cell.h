@@ -21,8 +21,8 @@
 
 namespace noli {
 
-/// The part of a cell that does not depend on positions.
-struct CellNames {
+/// The part of a cell that does not depend on positions: the numbers of its vertices and its own, and its features.
+struct CellIndices {
   std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/cells/features.h
   std::uint32_t cell;
   FeatureMask owned;
@@ -31,12 +31,12 @@ struct CellNames {
 };
 
 /// `features` as from find_owners.
-inline CellNames names_of(const Mesh& mesh, const CellFeatures& features, std::uint32_t cell) {
+inline CellIndices indices_of(const Mesh& mesh, const CellFeatures& features, std::uint32_t cell) {
   return {corners(mesh, cell), cell, features.owned[cell], features.shared[cell],
           static_cast<std::uint8_t>(corner_count(mesh, cell))};
 }
 
-inline CellShape shape_of(const CellNames& cell) { return {cell.vertices, cell.corners}; }
+inline CellShape shape_of(const CellIndices& cell) { return {cell.vertices, cell.corners}; }
 
 /// The positions of a vertex at both ends of the step.
 template <int Dim>
@@ -53,7 +53,7 @@ MovingVertex<Dim> moving_vertex(const Position& x_t0, const Position& x_t1) {
 
 /// A cell of a mesh in a step.
 template <int Dim>
-struct alignas(32) StepCell : CellNames {
+struct alignas(32) StepCell : CellIndices {
   static constexpr int dim = Dim;
   const MovingVertex<Dim>* mesh_vertices;  ///< those of the whole mesh
 
@@ -62,7 +62,7 @@ struct alignas(32) StepCell : CellNames {
 
 /// A cell with its positions.
 template <int Dim>
-struct alignas(64) MovingCell : CellNames {
+struct alignas(64) MovingCell : CellIndices {
   static constexpr int dim = Dim;
 
   /// x[end][axis][corner]: positions at the beginning (0) and the end (1) of the step.
@@ -99,7 +99,7 @@ inline std::array<double, 3> mid_normal(const MovingCell<3>& c) {
 /// Gives `c` the positions of the corners of `cell`.
 template <int Dim, class Cell>
 void gather_corners(const Cell& cell, MovingCell<Dim>& c) {
-  static_cast<CellNames&>(c) = cell;
+  static_cast<CellIndices&>(c) = cell;
   for (std::size_t k = 0; k < Dim; ++k) {
     for (std::size_t i = 0; i < 4; ++i) {
       const BothEnds x = cell.x(i < 3 ? i : 2)[k];

@@ -171,7 +171,7 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOption
     sort_leaves(Entries(entries).subspan(begin));
     for (std::size_t i = begin; i < entries.size(); ++i) {
       const std::uint32_t cell = entries[i].cell;
-      leaves_.push_back({names_of(mesh, features, cell), cell_labels_.of[cell]});
+      leaves_.push_back({indices_of(mesh, features, cell), cell_labels_.of[cell]});
     }
     add_tree(sheet, part, begin);
   };

@@ -29,7 +29,7 @@
 namespace noli {
 
 /// The part of a cell that does not depend on its motion.
-struct Leaf : CellNames {
+struct Leaf : CellIndices {
   std::uint32_t label;  ///< as in proofs/prover/cells/labels.h
 };
 

@@ -23,7 +23,7 @@ namespace noli {
 
 /// A cell of a mesh in a span.
 template <int Dim>
-struct ChordCell : CellNames {
+struct ChordCell : CellIndices {
   static constexpr int dim = Dim;
   const VertexChord<Dim>* mesh_vertices;  ///< those of the whole mesh
 
