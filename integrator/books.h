@@ -35,7 +35,6 @@
 #include <vector>
 
 #include "integrator/force.h"
-#include "integrator/vector.h"
 
 namespace noli::integrator {
 

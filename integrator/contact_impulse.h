@@ -20,7 +20,7 @@
 #include <span>
 
 #include "certificates/closest.h"
-#include "integrator/vector.h"
+#include "integrator/force.h"
 
 namespace noli::integrator {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The concept of an elastic force.
+// The concept of an elastic force, and the vectors of the dynamics.
 //
 // Notation
 //   V          the potential of one force, a function of the positions of its N vertices
@@ -13,16 +13,27 @@
 // Contact is not a force in this sense: its layers act on pairs that come and go (integrator/contact.h).
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 
 #include <noli/mesh.h>
 #include <noli/run.h>
-#include "integrator/vector.h"
+#include "certificates/vector.h"
 
 namespace noli::integrator {
 
 using noli::force_kinds;
 using noli::ForceKind;
+
+/// A position, velocity, impulse, ... with Dim coordinates of type S (double; multiprecision numbers for audits). As in
+/// forces, the number type comes first.
+template <class S, int Dim>
+using Vec = certificates::Vector<Dim, S>;
+
+/// One vector for each of the N vertices that a force reads, in the order of its `vertices`.
+template <class S, int Dim, std::size_t N>
+using VertexVectors = std::array<Vec<S, Dim>, N>;
 
 /// An elastic force on N = F::size vertices with M = F::measures measures. F::Scalar is its number type, F::dimension
 /// the dimension of space.

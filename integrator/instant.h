@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "integrator/books.h"
-#include "integrator/vector.h"
+#include "integrator/force.h"
 
 namespace noli::integrator {
 

@@ -34,7 +34,6 @@
 #include "integrator/force.h"
 #include "integrator/instant.h"
 #include "integrator/phase.h"
-#include "integrator/vector.h"
 
 namespace noli::integrator {
 

@@ -21,11 +21,11 @@
 
 #include <noli/mesh.h>
 #include "integrator/contact_settings.h"
+#include "integrator/force.h"
 #include "integrator/forces/edge_spring.h"
 #include "integrator/forces/hinge.h"
 #include "integrator/forces/membrane.h"
 #include "integrator/forces/turning.h"
-#include "integrator/vector.h"
 
 namespace noli::integrator {
 

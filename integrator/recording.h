@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <noli/mesh.h>
-#include "integrator/vector.h"
+#include "integrator/force.h"
 #include "trajectory/world_lines.h"
 
 namespace noli::integrator {

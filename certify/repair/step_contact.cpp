@@ -9,26 +9,23 @@
 
 #include <noli/errors.h>
 #include "integrator/scene/scene.h"
-#include "integrator/vector.h"
+#include "integrator/scene/shapes/curve.h"
 
 namespace noli {
 namespace {
 
-using integrator::Vec;
+using integrator::to_vec;
+using integrator::Vec3;
 
 constexpr std::size_t most_classes = 16, most_groups = 128;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Vec<double, 3> vector_of(const Position& x) { return {x[0], x[1], x[2]}; }
-
-double length_of(std::span<const Position> x, VertexId a, VertexId b) {
-  return (vector_of(x[b]) - vector_of(x[a])).norm();
-}
+double length_of(std::span<const Position> x, VertexId a, VertexId b) { return (to_vec(x[b]) - to_vec(x[a])).norm(); }
 
 /// Twice the area.
 double parallelogram(std::span<const Position> x, const std::array<VertexId, 3>& face) {
-  const Vec<double, 3> a = vector_of(x[face[1]]) - vector_of(x[face[0]]);
-  const Vec<double, 3> b = vector_of(x[face[2]]) - vector_of(x[face[0]]);
+  const Vec3 a = to_vec(x[face[1]]) - to_vec(x[face[0]]);
+  const Vec3 b = to_vec(x[face[2]]) - to_vec(x[face[0]]);
   return a.cross(b).norm();
 }
 
@@ -57,10 +54,10 @@ std::vector<double> heights_of(const Mesh& mesh, std::span<const Position> x) {
 /// The diagonal of the box around all vertices; 1 where they are all at one place.
 double size_of(std::span<const Position> x) {
   if (x.empty()) return 1;
-  Vec<double, 3> low = vector_of(x[0]), high = low;
+  Vec3 low = to_vec(x[0]), high = low;
   for (const Position& p : x) {
-    low = low.cwiseMin(vector_of(p));
-    high = high.cwiseMax(vector_of(p));
+    low = low.cwiseMin(to_vec(p));
+    high = high.cwiseMax(to_vec(p));
   }
   const double size = (high - low).norm();
   return size > 0 ? size : 1;

@@ -7,7 +7,7 @@
 // Must come after the number type.
 #include <boost/multiprecision/eigen.hpp>
 
-#include "integrator/vector.h"
+#include "integrator/force.h"
 
 namespace noli::test {
 

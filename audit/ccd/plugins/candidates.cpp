@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vector.h"
+#include "points.h"
 
 namespace {
 

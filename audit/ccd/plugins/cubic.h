@@ -14,7 +14,7 @@
 // have no roots here but at 0 or 1), or bound the error of a root.
 #pragma once
 
-#include "vector.h"
+#include "points.h"
 
 namespace noli::plugins {
 

@@ -7,7 +7,7 @@
 // points that are left.
 #pragma once
 
-#include "vector.h"
+#include "points.h"
 
 namespace noli::plugins {
 

@@ -11,7 +11,7 @@
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 #include <noli/ccd_plugin.h>
 
-#include "vector.h"
+#include "points.h"
 
 using Intersect = fcl::detail::Intersect<double>;
 

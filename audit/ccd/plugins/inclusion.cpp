@@ -18,7 +18,7 @@
 // the whole domain. With a tolerance of 0 boxes are bisected until epsilon, or the grid of doubles, ends it.
 #include <vector>
 
-#include "vector.h"
+#include "points.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <noli/ccd_plugin.h>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 
-#include "vector.h"
+#include "points.h"
 
 extern "C" uint32_t noli_ccd_version() { return NOLI_CCD_VERSION; }
 

@@ -18,7 +18,7 @@
 // What this does not do: find an even number of contacts, which is its nature (a feature that passes through and comes
 // back), or contacts throughout the step; nor does it know times. A ray that meets an edge is replaced by another one;
 // when that happens too often, the query fails.
-#include "vector.h"
+#include "points.h"
 
 namespace {
 

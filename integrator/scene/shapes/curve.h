@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <noli/mesh.h>
-#include "integrator/vector.h"
+#include "certificates/vector.h"
 
 namespace noli::integrator {
 
-using Vec3 = Vec<double, 3>;
+using Vec3 = certificates::Vector<3>;
 
 inline Vec3 to_vec(const Position& x) { return {x[0], x[1], x[2]}; }
 inline Position to_position(const Vec3& x) { return {x[0], x[1], x[2]}; }
