@@ -111,13 +111,14 @@ inline Decision contact_in(TimeEnclosure enclosure) { return {Verdict::contact, 
 /// An interval around a time known to a relative error far below 2^-40.
 inline TimeEnclosure around(double t) { return {std::max(0.0, t - 0x1p-40), std::min(1.0, t + 0x1p-40)}; }
 
-/// Decides a problem of codimension one: vertex_face and edge_edge in space.
+/// Decides vertex_face and edge_edge in space: searches the times when the four points are coplanar for one when the
+/// features meet.
 template <class Condition, std::size_t C>
-class CodimensionOne {
+class CoplanarSearch {
   static constexpr int cubic_depth = 6;
 
  public:
-  explicit CodimensionOne(Condition& condition) : condition_(condition) {}
+  explicit CoplanarSearch(Condition& condition) : condition_(condition) {}
 
   Decision decide() {
     const Cubic<C> f = condition_.coplanarity();
@@ -295,7 +296,7 @@ template <FeaturePair Pair, std::size_t C, std::size_t Dim, std::size_t N>
 Decision decide(const std::array<formula::Moving<Wide<C>, Dim>, N>& points, std::size_t axis) {
   auto condition = condition::make<Pair, AsForms>(points, axis);
   if constexpr (Pair == FeaturePair::vertex_face || Pair == FeaturePair::edge_edge) {
-    return CodimensionOne<decltype(condition), C>(condition).decide();
+    return CoplanarSearch<decltype(condition), C>(condition).decide();
   } else {
     return decide_others(condition);
   }
