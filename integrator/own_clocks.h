@@ -176,6 +176,7 @@ class ForceTable {
   /// `first`: the number of the first force. The forces must outlive this.
   template <class F>
   ForceTable(const std::vector<F>& forces, std::size_t first) : first_(first) {
+    static_assert(F::size <= most_vertices);
     if (forces.empty()) return;
     stride_ = sizeof(F);
     last_ = F::size - 1;
