@@ -6,8 +6,9 @@
 // Notation
 //   h        step [s], which divides the window
 //   x', v'   at the end of a step: M (x' - x - h v) / h^2 = M g - grad V(x'), v' = (x' - x) / h
-//   K        sum over forces and measures of c grad s grad s^T (force.h): the stiffness without the stress term, so
-//            positive semidefinite; each correction of x' solves (M / h^2 + K) dx = -residual by conjugate gradients
+//   K        sum over forces and measures of c grad s grad s^T (integrator/force.h): the stiffness without the stress
+//            term, so positive semidefinite; each correction of x' solves (M / h^2 + K) dx = -residual by conjugate
+//            gradients
 //   solved   a step whose last correction moves no vertex by more than 1e-9 of the size of the scene, within 200
 // (Baraff, Witkin, "Large steps in cloth simulation", 1998, make one correction; that would add the solver's error.)
 //

@@ -3,7 +3,7 @@
 // Figures of a run, as pictures and as numbers.
 //
 //   step-histogram   how long the steps of free vertices are over time: figure 2 of Harmon et al. 2009
-//                    (step_histogram.h says what is counted)
+//                    (certify/runs/step_histogram.h says what is counted)
 //   energy           kinetic energy (of velocities half way through the kicks), potentials, their sum, and what damping
 //                    has done so far, at the ends of windows
 //   momentum         momentum and angular momentum, at the ends of windows

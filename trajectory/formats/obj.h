@@ -4,7 +4,7 @@
 //
 //   v x y [z]      a vertex; z = 0 if no vertex of the file has one. A weight, a colour, or a weight and a colour may
 //                  follow z: finite numbers that are ignored
-//   f a b c ...    a polygon (cells.h), three corners or more
+//   f a b c ...    a polygon (trajectory/cells.h), three corners or more
 //   l a b ...      a line through two vertices or more: loose edges
 //   p a ...        loose points
 //

@@ -3,8 +3,9 @@
 // Reads PLY files: ASCII, binary little-endian, binary big-endian.
 //
 //   element vertex   properties x, y and optionally z, of any scalar type
-//   element face     one list vertex_indices or vertex_index of any integer types: polygons (cells.h), none empty
-//   element edge     vertex1 and vertex2 of any integer types: a loose edge, unless a face has it (cells.h)
+//   element face     one list vertex_indices or vertex_index of any integer types: polygons (trajectory/cells.h), none
+//                    empty
+//   element edge     vertex1 and vertex2 of any integer types: a loose edge, unless a face has it (trajectory/cells.h)
 //   anything else    skipped, except tristrips, which are an error: skipping them would lose faces
 //
 // Values have their declared type, in ASCII too: a float is rounded to float and then widened, so a mesh is the same in

@@ -3,7 +3,7 @@
 // Faces with more than three corners: how they become triangles, and how far they are from flat.
 //
 // Notation
-//   fan             the triangles (p0, p1, p2), (p0, p2, p3), ... of a polygon p0 p1 ... pn (cells.h)
+//   fan             the triangles (p0, p1, p2), (p0, p2, p3), ... of a polygon p0 p1 ... pn (trajectory/cells.h)
 //   non-planarity   the largest distance of a corner from the plane of the fan's first triangle with a nonzero area; 0
 //                   if no triangle has one. It is 0 exactly if all corners are in that plane. A different first corner
 //                   gives different triangles, and may give a different distance

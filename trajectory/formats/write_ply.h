@@ -16,7 +16,7 @@ namespace noli {
 enum class PlyEncoding { ascii, binary_little_endian };
 
 /// The bytes of the file. Precondition: as many positions as vertices; finite. The mesh is read back equal only if it
-/// has no redundant cells (cells.h).
+/// has no redundant cells (trajectory/cells.h).
 std::string format_ply(const Frame& frame, PlyEncoding encoding);
 
 /// Creates or replaces the file. Throws std::system_error when it cannot be written in full.

@@ -14,7 +14,7 @@
 // What this does not do: it judges no answer, and does not survive a crash of the checker in R; whoever reads its
 // answers sees from their number which proof it was.
 #define main noli_check_main
-#include "main.cpp"  // NOLINT(bugprone-suspicious-include)
+#include "proofs/checker/main.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef main
 
 #include <sys/mman.h>
