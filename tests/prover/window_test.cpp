@@ -236,6 +236,22 @@ TEST(Window, ScriptedEdgesOfFreeCellsAreLookedAt) {
   EXPECT_EQ(verify(scene, options).contacts[edge_edge], 1u);
 }
 
+TEST(Window, ScriptedEdgesOfFreeCellsAreLookedAtWhereFreeCellsOwnAllCorners) {
+  LineScene scene;
+  const auto down = [&](double x, double y) { return scene.vertex({{0, {x, y, 1}}, {1, {x, y, -1}}}); };
+  const VertexId a = down(-1, 0), b = down(1, 0), up = scene.vertex({0, 0, 9});
+  const VertexId c = scene.vertex({0, -1, 0}), d = scene.vertex({0, 1, 0});
+  const VertexId above = scene.vertex({0, 0.5, 9}), below = scene.vertex({0, 0, -9});
+  for (const VertexId v : {a, b, up}) scene.mesh.faces.push_back({v, above, above});
+  for (const VertexId v : {c, d}) scene.mesh.faces.push_back({v, below, below});
+  scene.mesh.faces.insert(scene.mesh.faces.end(), {{a, b, up}, {c, d, d}, {a, b, above}});
+  WindowOptions options;
+  const std::vector<std::uint8_t> scripted = {1, 1, 1, 1, 1, 0, 0};
+  options.scripted = scripted;
+  EXPECT_EQ(verify(scene).contacts[edge_edge], 1u);
+  EXPECT_EQ(verify(scene, options).contacts[edge_edge], 1u);
+}
+
 // --- ways to end
 
 TEST(Window, FirstOnlyEndsWithAContactAndOneThatDependsOnNothing) {

@@ -42,7 +42,7 @@ void prefer_free_owners(const Mesh& mesh, const std::vector<std::uint32_t>& labe
       if ((features.owned[cell] & bit) != 0) owners_of(bit)[key] = {cell, bit};
     });
   }
-  if (corner_owners.empty()) return;
+  if (corner_owners.empty() && edge_owners.empty()) return;
   for (std::uint32_t cell = 0; cell < cells; ++cell) {
     if (scripted(cell)) continue;
     for_features(mesh, cell, [&](Key key, FeatureMask bit) {
