@@ -2,8 +2,10 @@
 #include "certificates/features.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
-#include <utility>
+
+#include "trajectory/cell_features.h"
 
 namespace noli::certificates {
 
@@ -13,35 +15,45 @@ Features::Features(const Mesh& mesh, int dimension) : dimension_(dimension) {
     throw std::invalid_argument("features: expected fewer than 2^31 vertices and edges");
   }
   add_cells(mesh);
-  find_owners(mesh.vertex_count);
+  number_edges(mesh.vertex_count);
   list_cells(mesh.vertex_count);
 }
 
 void Features::add_cells(const Mesh& mesh) {
-  for (const auto& face : mesh.faces) cells_.push_back({face, 3, 0, 0, {}});
-  for (const auto& edge : mesh.edges) cells_.push_back({{edge[0], edge[1], 0}, 2, 0, 0, {}});
-  for (const VertexId point : mesh.points) cells_.push_back({{point, 0, 0}, 1, 0, 0, {}});
+  const CellFeatures features = find_owners(mesh, false);
+  cells_.reserve(mesh.cell_count());
+  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    const FeatureMask owned = features.owned[c];
+    cells_.push_back({corners(mesh, c),
+                      static_cast<std::uint8_t>(corner_count(mesh, c)),
+                      static_cast<std::uint8_t>(owned & 7),
+                      static_cast<std::uint8_t>(owned >> 3 & 7),
+                      {}});
+  }
 }
 
-void Features::find_owners(std::size_t vertex_count) {
-  std::vector<bool> owned(vertex_count, false);
-  std::vector<std::pair<std::array<VertexId, 2>, std::pair<std::uint32_t, std::uint8_t>>> sides;
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-    Cell& cell = cells_[c];
-    for (std::uint8_t k = 0; k < cell.size; ++k) {
-      const VertexId v = cell.vertices[k], w = cell.vertices[(k + 1U) % cell.size];
-      if (!owned[v]) cell.owned_vertices |= static_cast<std::uint8_t>(1U << k);
-      owned[v] = true;
-      if (cell.size == 3 || (cell.size == 2 && k == 0)) sides.push_back({{std::min(v, w), std::max(v, w)}, {c, k}});
+void Features::number_edges(std::size_t vertex_count) {
+  const auto edge_of = [](const Cell& cell, std::size_t k) {
+    const auto [least, greatest] = std::minmax(cell.vertices[k], cell.vertices[(k + 1) % cell.size]);
+    return std::array<VertexId, 2>{least, greatest};
+  };
+  std::vector<std::size_t> begin(vertex_count + 1, 0);  // of the edges of each least vertex, after partial_sum
+  for (const Cell& cell : cells_) {
+    for (std::size_t k = 0; k < cell.edge_count(); ++k) {
+      if ((cell.owned_edges >> k & 1) == 0) continue;
+      edges_.push_back(edge_of(cell, k));
+      ++begin[edges_.back()[0] + 1];
     }
   }
-  std::sort(sides.begin(), sides.end());
-  for (const auto& [ends, place] : sides) {
-    const auto& [c, k] = place;
-    const bool fresh = edges_.empty() || edges_.back() != ends;
-    if (fresh) edges_.push_back(ends);
-    cells_[c].edges[k] = static_cast<std::uint32_t>(edges_.size() - 1);
-    if (fresh) cells_[c].owned_edges |= static_cast<std::uint8_t>(1U << k);
+  std::sort(edges_.begin(), edges_.end());
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (Cell& cell : cells_) {
+    for (std::size_t k = 0; k < cell.edge_count(); ++k) {
+      const std::array<VertexId, 2> edge = edge_of(cell, k);
+      const auto* const first = edges_.data() + begin[edge[0]];
+      const auto* const last = edges_.data() + begin[edge[0] + 1];
+      cell.edges[k] = static_cast<std::uint32_t>(std::lower_bound(first, last, edge) - edges_.data());
+    }
   }
 }
 

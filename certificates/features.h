@@ -33,6 +33,7 @@ class Features {
     std::array<std::uint32_t, 3> edges{};
 
     std::span<const VertexId> all() const { return {vertices.data(), size}; }  ///< its vertices
+    std::size_t edge_count() const { return size == 3 ? 3 : size == 2 ? 1 : 0; }
   };
 
   /// Throws std::invalid_argument for 2^31 features or more.
@@ -132,7 +133,7 @@ class Features {
   }
 
   void add_cells(const Mesh& mesh);
-  void find_owners(std::size_t vertex_count);
+  void number_edges(std::size_t vertex_count);
   void list_cells(std::size_t vertex_count);
 
   int dimension_;

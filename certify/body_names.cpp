@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include <noli/errors.h>
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 namespace {

@@ -10,7 +10,7 @@
 #include <noli/errors.h>
 #include "certify/json.h"
 #include "integrator/scene/json_text.h"
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 #include "trajectory/text.h"
 
 namespace noli {

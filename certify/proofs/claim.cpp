@@ -12,9 +12,9 @@
 #include <noli/errors.h>
 #include "certify/process/child.h"
 #include "integrator/scene/json_text.h"
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/cell_features.h"
 #include "trajectory/text.h"
 
 namespace noli {

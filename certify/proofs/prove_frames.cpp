@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "certify/proofs/claim.h"
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 namespace {

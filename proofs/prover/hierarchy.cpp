@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "kernel/parallel.h"
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/median.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -10,8 +10,8 @@
 #include <random>
 #include <span>
 
-#include "proofs/prover/cells/features.h"
 #include "scenes.h"
+#include "trajectory/cell_features.h"
 
 namespace noli::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "brute_force.h"
 #include "proofs/prover/cells/baseline.h"
-#include "proofs/prover/cells/features.h"
 #include "replay.h"
+#include "trajectory/cell_features.h"
 
 namespace noli::testing {
 namespace {

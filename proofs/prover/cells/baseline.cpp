@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proofs/prover/cells/labels.h"
 
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

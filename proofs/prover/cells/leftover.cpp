@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -3,8 +3,8 @@
 // Cells and vertices in the layout that the verifier reads.
 //
 // Notation
-//   corner   as in proofs/prover/cells/features.h; corners beyond the cell's own repeat its last one, which does not
-//            change hulls
+//   corner   as in trajectory/cell_features.h; corners beyond the cell's own repeat its last one, which does not change
+//            hulls
 //
 // The usual obligations are settled from StepCell: one cache line per cell and per vertex, and the vertices of a mesh
 // are few enough to stay in the cache. For the rest, positions are gathered in a MovingCell.
@@ -16,14 +16,14 @@
 #include <noli/mesh.h>
 #include <noli/query.h>
 #include "kernel/both_ends.h"
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/cells/leftover.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 
 /// The part of a cell that does not depend on positions: the numbers of its vertices and its own, and its features.
 struct CellIndices {
-  std::array<VertexId, 3> vertices;  ///< as `corners` in proofs/prover/cells/features.h
+  std::array<VertexId, 3> vertices;  ///< as `corners` in trajectory/cell_features.h
   std::uint32_t cell;
   FeatureMask owned;
   FeatureMask shared;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "proofs/prover/cells/features.h"
 #include "trajectory/blocks/bytes.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

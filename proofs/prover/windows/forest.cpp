@@ -7,7 +7,6 @@
 
 #include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/windows/layout.h"
-#include "proofs/prover/windows/window_owners.h"
 
 namespace noli {
 
@@ -144,6 +143,13 @@ CellLabels labels_of(const Mesh& mesh, const WindowOptions& options) {
   return labels_of_run(mesh, options.scripted, options.exclusions != nullptr ? *options.exclusions : none);
 }
 
+/// Whether each cell is scripted. `labels`: of a run.
+std::vector<bool> scripted_cells(const CellLabels& labels) {
+  std::vector<bool> scripted(labels.of.size());
+  for (std::size_t cell = 0; cell < scripted.size(); ++cell) scripted[cell] = labels.of[cell] % 2 == 1;
+  return scripted;
+}
+
 }  // namespace
 
 Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOptions& options)
@@ -154,8 +160,8 @@ Forest::Forest(const Mesh& mesh, std::span<const Position> x, const WindowOption
                  }),
       part_of_(mesh.vertex_count, no_part),
       sizes_(sizes_of(mesh, x, options.dimension)) {
-  CellFeatures features = find_owners(mesh, options.strict);
-  if (options.labels == nullptr) prefer_free_owners(mesh, cell_labels_.of, features);
+  const CellFeatures features =
+      find_owners(mesh, options.strict, options.labels == nullptr ? scripted_cells(cell_labels_) : std::vector<bool>());
 
   const Sheets parts = parts_of(mesh, x, options.dimension);
   const std::vector<std::uint32_t> rest = rest_of(mesh, parts);

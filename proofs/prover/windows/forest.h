@@ -18,13 +18,13 @@
 #include <vector>
 
 #include <noli/mesh.h>
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/cells/labels.h"
 #include "proofs/prover/cells/leftover.h"
 #include "proofs/prover/cells/moving_cell.h"
 #include "proofs/prover/windows/charts.h"
 #include "proofs/prover/windows/monotone.h"
 #include "proofs/prover/windows/window_verifier.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <noli/query.h>
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/mesh_paths.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -9,12 +9,12 @@
 #include <span>
 #include <tuple>
 
-#include "proofs/prover/cells/features.h"
 #include "proofs/prover/tokens/tokens.h"
 #include "proofs/prover/witness/dependency.h"
 #include "proofs/prover/witness/integer_motion.h"
 #include "proofs/prover/witness/roots.h"
 #include "trajectory/blocks/bytes.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "kernel/arithmetic/scaled_integers.h"
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 namespace noli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 #include <gtest/gtest.h>
 
 namespace noli {
 namespace {
 
-TEST(Features, TheLeastCellOwns) {
+TEST(CellFeatures, TheLeastCellOwns) {
   Mesh mesh;
   mesh.vertex_count = 5;
   mesh.faces = {{0, 1, 2}, {2, 1, 3}};
@@ -20,7 +20,7 @@ TEST(Features, TheLeastCellOwns) {
   EXPECT_EQ(features.owned[4], 0);
 }
 
-TEST(Features, WhatSeveralCellsHaveIsShared) {
+TEST(CellFeatures, WhatSeveralCellsHaveIsShared) {
   Mesh mesh;
   mesh.vertex_count = 5;
   mesh.faces = {{0, 1, 2}, {2, 1, 3}};
@@ -31,7 +31,7 @@ TEST(Features, WhatSeveralCellsHaveIsShared) {
   EXPECT_EQ(features.shared[2], 0);
 }
 
-TEST(Features, AVertexThatACellHasTwiceCountsOnce) {
+TEST(CellFeatures, AVertexThatACellHasTwiceCountsOnce) {
   Mesh mesh;
   mesh.vertex_count = 2;
   mesh.faces = {{0, 1, 1}};
@@ -40,7 +40,7 @@ TEST(Features, AVertexThatACellHasTwiceCountsOnce) {
   EXPECT_EQ(features.shared[0], 0);
 }
 
-TEST(Features, RepeatedCellsAreNotListedWhateverTheirOrder) {
+TEST(CellFeatures, RepeatedCellsAreNotListedWhateverTheirOrder) {
   Mesh mesh;
   mesh.vertex_count = 4;
   mesh.faces = {{0, 1, 2}, {2, 0, 1}, {0, 1, 3}, {0, 0, 1}, {0, 1, 1}};
@@ -51,7 +51,7 @@ TEST(Features, RepeatedCellsAreNotListedWhateverTheirOrder) {
   for (std::size_t cell = 0; cell < expected.size(); ++cell) EXPECT_EQ(listed(cell), expected[cell]) << cell;
 }
 
-TEST(Features, CellsAreListedOnlyOnRequest) {
+TEST(CellFeatures, CellsAreListedOnlyOnRequest) {
   Mesh mesh;
   mesh.vertex_count = 3;
   mesh.faces = {{0, 1, 2}};
@@ -59,6 +59,29 @@ TEST(Features, CellsAreListedOnlyOnRequest) {
   for (const std::size_t cell : {0U, 1U}) {
     EXPECT_EQ(find_owners(mesh, false).owned[cell] & cell_bit, 0);
     EXPECT_EQ(find_owners(mesh, true).owned[cell] & cell_bit, cell_bit);
+  }
+}
+
+TEST(CellFeatures, CellsYieldWhatOthersHave) {
+  Mesh mesh;
+  mesh.vertex_count = 5;
+  mesh.faces = {{0, 1, 2}, {2, 1, 3}, {1, 2, 0}, {2, 2, 1}};
+  mesh.points = {4};
+  const auto owned = [&](const std::vector<bool>& yields) { return find_owners(mesh, false, yields).owned; };
+  const std::vector<FeatureMask> by_number = {7 | 7 << 3, corner_bit(2) | edge_bit(1) | edge_bit(2), 0, edge_bit(0),
+                                              corner_bit(0)};
+  EXPECT_EQ(owned({}), by_number);
+  EXPECT_EQ(owned({false, false, true, false, true}), by_number);
+  EXPECT_EQ(owned({true, true, true, true, true}), by_number);
+  EXPECT_EQ(
+      owned({true, false, true, true, true}),
+      (std::vector<FeatureMask>{corner_bit(0) | edge_bit(0) | edge_bit(2), 7 | 7 << 3, 0, edge_bit(0), corner_bit(0)}));
+  EXPECT_EQ(
+      owned({true, true, false, false, false}),
+      (std::vector<FeatureMask>{0, corner_bit(2) | edge_bit(1) | edge_bit(2), 7 | 7 << 3, edge_bit(0), corner_bit(0)}));
+  for (const bool first : {false, true}) {
+    const auto shared = find_owners(mesh, false, {first, !first, false, true, false}).shared;
+    EXPECT_EQ(shared, find_owners(mesh, false).shared);
   }
 }
 

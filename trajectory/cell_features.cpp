@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proofs/prover/cells/features.h"
+#include "trajectory/cell_features.h"
 
 #include <algorithm>
 #include <numeric>
@@ -61,49 +61,62 @@ std::vector<Occurrence<N>> sorted_occurrences(std::size_t vertex_count, const Vi
   return sorted;
 }
 
-/// `run`: all occurrences of one set of vertices, in order. The first one owns it.
+/// `run`: all occurrences of one set of vertices, in order. The first one owns it; with `yields`, the first of a cell
+/// that does not yield, if there is one.
 template <std::size_t N>
-void assign(std::span<const Occurrence<N>> run, CellFeatures& features) {
-  features.owned[run.front().cell] |= run.front().bit;
+void assign(std::span<const Occurrence<N>> run, const std::vector<bool>& yields, CellFeatures& features) {
+  auto owner = run.begin();
+  if (!yields.empty()) {
+    owner = std::find_if_not(run.begin(), run.end(), [&](const auto& o) { return yields[o.cell]; });
+    if (owner == run.end()) owner = run.begin();
+  }
+  features.owned[owner->cell] |= owner->bit;
   if (run.front().cell == run.back().cell) return;
   for (const auto& o : run) features.shared[o.cell] |= o.bit;
 }
 
 /// `visit` as in sorted_occurrences.
 template <std::size_t N, class Visit>
-void assign_all(std::size_t vertex_count, const Visit& visit, CellFeatures& features) {
+void assign_all(std::size_t vertex_count, const Visit& visit, const std::vector<bool>& yields, CellFeatures& features) {
   const auto all = sorted_occurrences<N>(vertex_count, visit);
   const std::span<const Occurrence<N>> view(all);
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
     while (end < all.size() && same_vertices(all[end], all[begin])) ++end;
-    assign(view.subspan(begin, end - begin), features);
+    assign(view.subspan(begin, end - begin), yields, features);
   }
 }
 
-void assign_corners(const Mesh& mesh, CellFeatures& features) {
+void assign_corners(const Mesh& mesh, const std::vector<bool>& yields, CellFeatures& features) {
   constexpr std::uint32_t none = ~std::uint32_t{0};
-  struct First {
+  struct Place {
     std::uint32_t cell = none;
     FeatureMask bit = 0;
   };
-  std::vector<First> first(mesh.vertex_count);
+  struct Places {
+    Place first, owner;
+  };
+  std::vector<Places> places(mesh.vertex_count);
   const auto cells = static_cast<std::uint32_t>(mesh.cell_count());
   for (std::uint32_t cell = 0; cell < cells; ++cell) {
     const auto vertices = corners(mesh, cell);
     for (int i = 0; i < corner_count(mesh, cell); ++i) {
-      First& f = first[vertices[static_cast<std::size_t>(i)]];
-      if (f.cell == none) {
-        f = {cell, corner_bit(i)};
-        features.owned[cell] |= f.bit;
-      } else if (f.cell != cell) {
-        features.shared[cell] |= corner_bit(i);
-        features.shared[f.cell] |= f.bit;
+      const Place here{cell, corner_bit(i)};
+      auto& [first, owner] = places[vertices[static_cast<std::size_t>(i)]];
+      if (first.cell == none) {
+        first = owner = here;
+      } else if (first.cell != cell) {
+        features.shared[cell] |= here.bit;
+        features.shared[first.cell] |= first.bit;
+        if (!yields.empty() && yields[owner.cell] && !yields[cell]) owner = here;
       }
     }
   }
+  for (const auto& [first, owner] : places) {
+    if (first.cell != none) features.owned[owner.cell] |= owner.bit;
+  }
 }
 
-void assign_edges(const Mesh& mesh, CellFeatures& features) {
+void assign_edges(const Mesh& mesh, const std::vector<bool>& yields, CellFeatures& features) {
   const auto edge = [](VertexId a, VertexId b, std::size_t cell, int number) {
     return Occurrence<2>{{std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(cell), edge_bit(number)};
   };
@@ -118,7 +131,7 @@ void assign_edges(const Mesh& mesh, CellFeatures& features) {
       add(edge(mesh.edges[e][0], mesh.edges[e][1], mesh.faces.size() + e, 0));
     }
   };
-  assign_all<2>(mesh.vertex_count, visit, features);
+  assign_all<2>(mesh.vertex_count, visit, yields, features);
 }
 
 /// Marks the listed cells among [first, last), which are all of one kind.
@@ -130,7 +143,7 @@ void assign_cells(const Mesh& mesh, std::size_t first, std::size_t last, CellFea
       add(Occurrence<3>{ascending(corners(mesh, cell), corner_count(mesh, cell)), cell, cell_bit});
     }
   };
-  assign_all<3>(mesh.vertex_count, visit, features);
+  assign_all<3>(mesh.vertex_count, visit, {}, features);
 }
 
 }  // namespace
@@ -143,13 +156,13 @@ std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count) {
   return v;
 }
 
-CellFeatures find_owners(const Mesh& mesh, bool list_cells) {
+CellFeatures find_owners(const Mesh& mesh, bool list_cells, const std::vector<bool>& yields) {
   const std::size_t faces = mesh.faces.size(), edges = mesh.edges.size();
   CellFeatures features;
   features.owned.assign(mesh.cell_count(), 0);
   features.shared.assign(mesh.cell_count(), 0);
-  assign_corners(mesh, features);
-  assign_edges(mesh, features);
+  assign_corners(mesh, yields, features);
+  assign_edges(mesh, yields, features);
   if (list_cells) {
     assign_cells(mesh, 0, faces, features);
     assign_cells(mesh, faces, faces + edges, features);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Assigns each vertex and edge to one cell, so that each pair of features is counted once.
+// The features of cells, and which cell owns each vertex and edge, so that each pair of features is counted once.
 //
 // Notation
 //   corner   a place in a cell's list of vertices; edge i of a face goes from corner i to corner i + 1, cyclically
-//   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it. A pair of features is
-//            examined at the obligation of its two owners
+//   owner    of a vertex, or of an edge as a pair of vertex ids: the least cell that has it (with `yields`, see
+//            find_owners). A pair of features is examined with the pair of its owners
 //   listed   a face or loose edge, if no earlier cell of its kind has the same vertices
 #pragma once
 
@@ -51,6 +51,10 @@ std::array<VertexId, 3> ascending(std::array<VertexId, 3> v, int count);
 /// Finds the owners. With `list_cells` (for a strict verification) also marks listed cells; otherwise none is. A vertex
 /// or edge that a cell has twice counts once, at its first place. Time and memory are linear in the mesh (if no vertex
 /// has more than a few cells).
-CellFeatures find_owners(const Mesh& mesh, bool list_cells);
+///
+/// `yields`: whether each cell yields; empty: none does. A cell that yields owns a vertex or edge only if all cells
+/// with it yield. So if pairs of yielding cells are not compared, a pair of features still belongs to a pair of cells
+/// that is compared, if there is one.
+CellFeatures find_owners(const Mesh& mesh, bool list_cells, const std::vector<bool>& yields = {});
 
 }  // namespace noli
