@@ -39,10 +39,13 @@ enum class TokenCode : std::uint8_t {
   both = 0x05,
   excluded = 0x06,
   axis = 0x08,  ///< plus 2 k for axis k, plus 1 if the first group is the lower one
+  last_axis = 0x0d,
   empty = 0x0e,
   short_direction = 0x10,
   direction = 0x11,
-  drop = 0x20,  ///< plus k for common vertex k
+  half_space = 0x12,  ///< the checkers accept it, but Tokens never writes it
+  drop = 0x20,        ///< plus k for common vertex k
+  last_drop = 0x22,
   ring = 0x30
 };
 
