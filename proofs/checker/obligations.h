@@ -85,6 +85,29 @@ class Tree {
   std::vector<std::uint32_t> vertices_;
 };
 
+/// The first byte of each token, and its letter in proofs/FORMAT.md.
+enum class TokenCode : std::uint8_t {
+  halve = 0x00,            ///< T
+  left = 0x01,             ///< L
+  right = 0x02,            ///< R
+  parts = 0x03,            ///< N
+  one = 0x04,              ///< F
+  both = 0x05,             ///< B
+  excluded = 0x06,         ///< X
+  axis = 0x08,             ///< S along an axis: the first of six codes
+  last_axis = 0x0d,        ///< the last of them
+  empty = 0x0e,            ///< S with direction 0
+  short_direction = 0x10,  ///< S
+  direction = 0x11,        ///< S
+  half_space = 0x12,       ///< P
+  drop = 0x20,             ///< D 0
+  last_drop = 0x22,        ///< D 2
+  ring = 0x30              ///< W
+};
+
+/// The distance of a code from the first one of its range.
+constexpr int operator-(TokenCode code, TokenCode first) { return static_cast<int>(code) - static_cast<int>(first); }
+
 struct Group {
   std::uint32_t node = 0;
   std::uint32_t dropped = 0;  ///< bit i: the leaf's vertex number i was dropped
@@ -109,7 +132,7 @@ class Obligations {
   /// Takes all tokens of a block.
   void take(Reader& c) {
     while (c.left() > 0) {
-      const std::uint8_t code = c.u8();
+      const auto code = static_cast<TokenCode>(c.u8());
       c.require(!stack_.empty(), "a token, but nothing is left to show");
       const Obligation top = stack_.back();
       stack_.pop_back();
@@ -120,36 +143,36 @@ class Obligations {
  private:
   using Side = Group Obligation::*;
 
-  void step(std::uint8_t code, const Obligation& top, Reader& c) {
+  void step(TokenCode code, const Obligation& top, Reader& c) {
     switch (code) {
-      case 0x00: return halve(top, c);
-      case 0x01: return split(top, &Obligation::x, c);
-      case 0x02: return split(top, &Obligation::y, c);
-      case 0x03: return parts(top, c);
-      case 0x04:
+      case TokenCode::halve: return halve(top, c);
+      case TokenCode::left: return split(top, &Obligation::x, c);
+      case TokenCode::right: return split(top, &Obligation::y, c);
+      case TokenCode::parts: return parts(top, c);
+      case TokenCode::one:
         c.require(top.self && leaf(top.x), "F is for one cell by itself");
         return c.require(!claim_.strict, "F is for a claim that is not strict");
-      case 0x05:
+      case TokenCode::both:
         c.require(top.self, "B is for a group with itself");
         return push({{top.x, top.y, false, top.distance, top.piece}});
-      case 0x06: return excluded(top, c);
-      case 0x10: return packed(top, c);
-      case 0x11: {
+      case TokenCode::excluded: return excluded(top, c);
+      case TokenCode::short_direction: return packed(top, c);
+      case TokenCode::direction: {
         const Vector n = {c.sint(), c.sint(), c.sint()};
         const bool small = std::ranges::all_of(n, [](const mpz_class& k) { return abs(k) < Enclosures::limit; });
         if (small) return direction(top, {n[0].get_si(), n[1].get_si(), n[2].get_si()}, c);
         return exactly(top, c, [&](auto&&... rest) { return separated(n, rest...); });
       }
-      case 0x12: return half_space(top, c);
-      case 0x20:
-      case 0x21:
-      case 0x22: return drop(top, code & 3u, c);
-      case 0x30: return ring(top, c);
+      case TokenCode::half_space: return half_space(top, c);
+      case TokenCode::ring: return ring(top, c);
       default: break;
     }
-    c.require(0x08 <= code && code <= 0x0e, "the byte before this is no token");
+    if (TokenCode::drop <= code && code <= TokenCode::last_drop)
+      return drop(top, static_cast<std::size_t>(code - TokenCode::drop), c);
+    c.require(TokenCode::axis <= code && code <= TokenCode::empty, "the byte before this is no token");
     std::array<std::int64_t, 3> n = {0, 0, 0};
-    if (code < 0x0e) n[(code - 8) / 2] = code % 2 == 0 ? 1 : -1;
+    const int k = code - TokenCode::axis;  // two codes for each axis
+    if (code <= TokenCode::last_axis) n[static_cast<std::size_t>(k / 2)] = k % 2 == 0 ? 1 : -1;
     direction(top, n, c);
   }
 

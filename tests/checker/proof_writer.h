@@ -45,24 +45,33 @@ inline std::string sha256(std::string_view text) {
   return raw(hash.digest());
 }
 
+/// The first byte of a token; `k` counts the codes in a range.
+inline std::string first_byte(TokenCode code, int k = 0) { return bytes({static_cast<int>(code) + k}); }
+
 namespace token {
-inline const std::string T = bytes({0}), L = bytes({1}), R = bytes({2}), N = bytes({3}), F = bytes({4}), B = bytes({5}),
-                         X = bytes({6}), px = bytes({8}), mx = bytes({9}), py = bytes({10}), my = bytes({11}),
-                         pz = bytes({12}), mz = bytes({13}), none = bytes({14});
+inline const std::string T = first_byte(TokenCode::halve), L = first_byte(TokenCode::left),
+                         R = first_byte(TokenCode::right), N = first_byte(TokenCode::parts),
+                         F = first_byte(TokenCode::one), B = first_byte(TokenCode::both),
+                         X = first_byte(TokenCode::excluded), px = first_byte(TokenCode::axis),
+                         mx = first_byte(TokenCode::axis, 1), py = first_byte(TokenCode::axis, 2),
+                         my = first_byte(TokenCode::axis, 3), pz = first_byte(TokenCode::axis, 4),
+                         mz = first_byte(TokenCode::last_axis), none = first_byte(TokenCode::empty);
 inline std::string packed(int x, int y, int z) {
-  return bytes({0x10}) + raw(static_cast<std::uint32_t>((x & 1023) | (y & 1023) << 10 | (z & 1023) << 20));
+  return first_byte(TokenCode::short_direction) +
+         raw(static_cast<std::uint32_t>((x & 1023) | (y & 1023) << 10 | (z & 1023) << 20));
 }
 inline std::string S(const mpz_class& x, const mpz_class& y, const mpz_class& z) {
-  return bytes({0x11}) + sint(x) + sint(y) + sint(z);
+  return first_byte(TokenCode::direction) + sint(x) + sint(y) + sint(z);
 }
 inline std::string P(unsigned s, const std::array<int, 3>& n, const mpz_class& nt, const mpz_class& nd,
                      const mpz_class& w) {
-  return bytes({0x12}) + uint(s) + sint(n[0]) + sint(n[1]) + sint(n[2]) + scaled(nt) + scaled(nd) + scaled(w);
+  return first_byte(TokenCode::half_space) + uint(s) + sint(n[0]) + sint(n[1]) + sint(n[2]) + scaled(nt) + scaled(nd) +
+         scaled(w);
 }
-inline std::string D(int k) { return bytes({0x20 + k}); }
+inline std::string D(int k) { return first_byte(TokenCode::drop, k); }
 /// v0 c1 v1 ... cm vm.
 inline std::string W(const std::vector<unsigned>& way) {
-  std::string result = bytes({0x30}) + uint(way.size() / 2);
+  std::string result = first_byte(TokenCode::ring) + uint(way.size() / 2);
   for (const unsigned i : way) result += uint(i);
   return result;
 }

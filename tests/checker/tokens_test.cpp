@@ -149,8 +149,10 @@ TEST(Tokens, SOfEachKind) {
   for (const std::string& s : {px, py, my, pz, mz, none, packed(1, 0, 0), packed(-1, 3, 0), S(1, 0, 0), S(0, 0, 0),
                                S(mpz_class(1) << 200, 0, 0)})
     EXPECT_REJECTED(two_edges().with(of_pair(s)), "does not separate");
-  EXPECT_REJECTED(two_edges().with(of_pair(bytes({0x10}) + raw(0x40000000u | 1023u))), "highest bits");
-  EXPECT_REJECTED(two_edges().with(of_pair(bytes({0x10}) + raw(0x80000000u | 1023u))), "highest bits");
+  for (const std::uint32_t high : {0x40000000u, 0x80000000u}) {
+    const std::string s = first_byte(TokenCode::short_direction) + raw(high | 1023u);
+    EXPECT_REJECTED(two_edges().with(of_pair(s)), "highest bits");
+  }
 }
 
 TEST(Tokens, SHoldsAtBothEnds) {
@@ -188,7 +190,8 @@ TEST(Tokens, P) {
   EXPECT_REJECTED(two_edges().with(of_pair(P(0, {-1, 0, 0}, 0, -1, -1))), "does not separate");
   EXPECT_REJECTED(two_edges().with(P(0, {-1, 0, 0}, 0, -1, 0)), "for a pair");
   EXPECT_REJECTED(two_edges().with(of_pair(P(4097, {-1, 0, 0}, 0, -1, 0))), "shift");
-  EXPECT_REJECTED(two_edges().with(of_pair(bytes({0x12, 0, 1, 0, 0}) + scaled(0, 4097))), "shift");
+  EXPECT_REJECTED(two_edges().with(of_pair(first_byte(TokenCode::half_space) + bytes({0, 1, 0, 0}) + scaled(0, 4097))),
+                  "shift");
   EXPECT_ACCEPTED(
       two_edges().with(of_pair(P(4096, {-1, 0, 0}, 0, -1, 0).substr(0, 6) + scaled(0) + scaled(-1, 4096) + scaled(0))));
 }
@@ -272,16 +275,19 @@ TEST(Tokens, JustAllAreShown) {
   EXPECT_REJECTED(two_edges().with(N + F + mx), "not complete");
   EXPECT_REJECTED(two_edges().with(of_pair(mx) + F), "nothing is left");
   for (const std::string& cut :
-       {bytes({0x10, 0}), bytes({0x11, 1}), bytes({0x11, 0x80}), bytes({0x12, 0}), bytes({0x30, 1})})
+       {first_byte(TokenCode::short_direction) + bytes({0}), first_byte(TokenCode::direction) + bytes({1}),
+        first_byte(TokenCode::direction) + bytes({0x80}), first_byte(TokenCode::half_space) + bytes({0}),
+        first_byte(TokenCode::ring) + bytes({1})})
     EXPECT_REJECTED(two_edges().with(N + F + cut), "expected more bytes");
 }
 
 TEST(Tokens, Numbers) {
-  EXPECT_REJECTED(two_edges().with(N + F + bytes({0x11, 0x80, 0})), "written longer");
-  EXPECT_REJECTED(two_edges().with(N + F + bytes({0x11}) + std::string(1200, '\x80') + bytes({1})), "too long");
-  EXPECT_ACCEPTED(two_edges().with(N + F + bytes({0x11}) + std::string(1199, '\xff') + bytes({1, 0, 0, 4})));
-  EXPECT_REJECTED(two_edges().with(N + F + bytes({0x30}) + std::string(9, '\x80') + bytes({2})), "below 2^64");
-  EXPECT_REJECTED(two_edges().with(N + F + bytes({0x30}) + std::string(10, '\x80') + bytes({1})), "too long");
+  const std::string s = N + F + first_byte(TokenCode::direction), w = N + F + first_byte(TokenCode::ring);
+  EXPECT_REJECTED(two_edges().with(s + bytes({0x80, 0})), "written longer");
+  EXPECT_REJECTED(two_edges().with(s + std::string(1200, '\x80') + bytes({1})), "too long");
+  EXPECT_ACCEPTED(two_edges().with(s + std::string(1199, '\xff') + bytes({1, 0, 0, 4})));
+  EXPECT_REJECTED(two_edges().with(w + std::string(9, '\x80') + bytes({2})), "below 2^64");
+  EXPECT_REJECTED(two_edges().with(w + std::string(10, '\x80') + bytes({1})), "too long");
 }
 
 TEST(Tokens, AStreamInSeveralBlocks) {
