@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "audit/fuzz/proofs/mutating.h"
+#include "proofs/prover/tokens/tokens.h"
 
 namespace noli::audit {
 
@@ -12,11 +13,18 @@ namespace {
 
 using namespace mutating;
 
+/// What a token that is not empty begins with, which need not be a code that exists.
+TokenCode code_at(const std::string& token, std::size_t at = 0) {
+  return static_cast<TokenCode>(static_cast<std::uint8_t>(token[at]));
+}
+
+std::string first_byte(TokenCode code) { return std::string(1, static_cast<char>(code)); }
+
 /// How many varints follow a token's first byte; of token W that depends on the first of them.
-std::size_t varints_after(unsigned char kind) {
-  switch (kind) {
-    case 0x11: return 3;
-    case 0x12: return 10;
+std::size_t varints_after(TokenCode code) {
+  switch (code) {
+    case TokenCode::direction: return 3;
+    case TokenCode::half_space: return 10;
     default: return 0;
   }
 }
@@ -28,10 +36,10 @@ std::size_t end_of_varint(const std::string& payload, std::size_t at) {
 }
 
 std::size_t end_of_token(const std::string& payload, std::size_t at) {
-  const auto kind = static_cast<unsigned char>(payload[at++]);
-  if (kind == 0x10) return at + 4;
-  std::size_t varints = varints_after(kind);
-  if (kind == 0x30) {
+  const TokenCode code = code_at(payload, at++);
+  if (code == TokenCode::short_direction) return at + 4;
+  std::size_t varints = varints_after(code);
+  if (code == TokenCode::ring) {
     const auto edges = static_cast<unsigned char>(at < payload.size() ? payload[at] : 0) & 0x7fU;
     varints = 2 + 2 * std::size_t{edges};
   }
@@ -73,7 +81,7 @@ bool any_token(const std::string& /*token*/) { return true; }
 
 /// The token S with small numbers.
 std::string direction_token(Random& random) {
-  std::string token(1, '\x10');
+  std::string token = first_byte(TokenCode::short_direction);
   std::uint32_t bits = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const auto n = static_cast<std::uint32_t>(random.one_in(2) ? random.between(-1, 1) : random.between(-512, 511));
@@ -94,7 +102,7 @@ std::string some_scaled_number(Random& random, std::uint64_t shifts, std::int64_
 /// The token P with a plane that nearly rests.
 std::string plane_token(Random& random) {
   constexpr std::array<std::uint64_t, 5> shifts = {0, 0, 1, 3, 60};
-  std::string token = std::string(1, '\x12') + uint_bytes(random.one_of(shifts));
+  std::string token = first_byte(TokenCode::half_space) + uint_bytes(random.one_of(shifts));
   for (int i = 0; i < 3; ++i) token += sint_bytes(random.between(-3, 3));
   token += some_scaled_number(random, 9, -2, 2);
   token += some_scaled_number(random, 9, -30, 29);
@@ -104,27 +112,34 @@ std::string plane_token(Random& random) {
 std::string path_token(Random& random) {
   constexpr std::array<std::uint64_t, 6> lengths = {0, 1, 1, 2, 3, 256};
   const std::uint64_t m = random.one_of(lengths);
-  std::string token = std::string(1, '\x30') + uint_bytes(m);
+  std::string token = first_byte(TokenCode::ring) + uint_bytes(m);
   for (std::uint64_t i = 0; i < 2 * m + 1; ++i) token += uint_bytes(random.below(6));
   return token;
 }
+
+/// The first bytes of tokens without numbers, of those that are along an axis, and two bytes next to them (07, 23) that
+/// no token has.
+constexpr auto plain_bytes = [] {
+  constexpr int empty = static_cast<int>(TokenCode::empty), drop = static_cast<int>(TokenCode::drop),
+                behind = static_cast<int>(TokenCode::last_drop) + 1;
+  std::array<char, empty + 1 + behind - drop + 1> all{};
+  std::iota(all.begin(), all.begin() + empty + 1, '\0');
+  std::iota(all.begin() + empty + 1, all.end(), static_cast<char>(drop));
+  return all;
+}();
 
 std::string some_token(Random& random, const std::vector<std::string>& items) {
   switch (random.below(8)) {
     case 0: return items[some_index(random, items)];
     case 1: return direction_token(random);
     case 2: {
-      std::string token(1, '\x11');
+      std::string token = first_byte(TokenCode::direction);
       for (int i = 0; i < 3; ++i) token += sint_bytes(random.between(-1'000'000, 1'000'000) << random.below(40));
       return token;
     }
     case 3: return plane_token(random);
     case 4: return path_token(random);
-    default: {
-      constexpr std::string_view plain("\x00\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e\x20\x21\x22\x23",
-                                       19);
-      return {random.one_in(10) ? static_cast<char>(random.below(256)) : plain[random.below(plain.size())]};
-    }
+    default: return {random.one_in(10) ? static_cast<char>(random.below(256)) : random.one_of(plain_bytes)};
   }
 }
 
@@ -163,7 +178,7 @@ bool split_inserted(Mutating& m) {
   return change_token(m, any_token, [&](std::string& token, const auto&) {
     constexpr std::array<std::size_t, 7> depths = {1, 1, 1, 3, 20, 1023, 1025};
     const std::size_t depth = m.random.one_of(depths), times = depth + 1 - (m.random.one_in(4) ? 1 : 0);
-    std::string all(depth, '\0');
+    std::string all(depth, static_cast<char>(TokenCode::halve));
     for (std::size_t i = 0; i < times; ++i) all += token;
     token = all;
   });
@@ -173,7 +188,7 @@ bool split_inserted(Mutating& m) {
 bool coefficient(Mutating& m) {
   const auto has_one = [](const std::string& token) { return token.size() > 1; };
   return change_token(m, has_one, [&](std::string& token, const auto&) {
-    if (token[0] == '\x10') {
+    if (code_at(token) == TokenCode::short_direction) {
       const auto shift = static_cast<unsigned>(10 * m.random.below(3));
       change_field<std::uint32_t>(token, 1, [&](std::uint32_t bits) {
         const auto n = static_cast<std::uint32_t>(other_integer(m.random, bits >> shift & 1023U)) & 1023U;
@@ -189,12 +204,14 @@ bool coefficient(Mutating& m) {
 
 /// A direction along an axis is written as a plane at rest, whose bounds are met, or missed by one.
 bool direction_as_plane(Mutating& m) {
-  const auto along_axis = [](const std::string& token) { return token.size() == 1 && token[0] >= 8 && token[0] <= 13; };
+  const auto along_axis = [](const std::string& token) {
+    return token.size() == 1 && TokenCode::axis <= code_at(token) && code_at(token) <= TokenCode::last_axis;
+  };
   return change_token(m, along_axis, [&](std::string& token, const auto&) {
-    const int axis = (token[0] - 8) / 2;
-    const std::int64_t sign = token[0] % 2 == 0 ? 1 : -1;
+    const int k = token[0] - static_cast<int>(TokenCode::axis), axis = k / 2;
+    const std::int64_t sign = k % 2 == 0 ? 1 : -1;
     constexpr std::array<std::uint64_t, 6> shifts = {0, 0, 1, 4, 4096, 4097};
-    std::string plane = std::string(1, '\x12') + uint_bytes(m.random.one_of(shifts));
+    std::string plane = first_byte(TokenCode::half_space) + uint_bytes(m.random.one_of(shifts));
     for (int i = 0; i < 3; ++i) plane += sint_bytes(i == axis ? sign : 0);
     plane += scaled_number(0, m.random.one_in(3) ? m.random.between(-1, 1) : 0);
     plane += some_scaled_number(m.random, 5, -6, 6);
