@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proofs/prover/tokens/tokens.h"
+
 namespace noli::testing {
 
 namespace {
@@ -21,6 +23,11 @@ std::uint8_t take_byte(std::string_view& bytes) {
   const auto byte = static_cast<std::uint8_t>(bytes.at(0));
   bytes.remove_prefix(1);
   return byte;
+}
+
+/// The distance of a code from the first one of its range.
+std::size_t past(TokenCode first, TokenCode code) {
+  return static_cast<std::size_t>(code) - static_cast<std::size_t>(first);
 }
 
 double take_sint(std::string_view& bytes) {
@@ -49,28 +56,30 @@ Replay::Replay(const Step& step, int dimension, bool strict, const StepProof& pr
 
 void Replay::read(std::string_view bytes) {
   while (!bytes.empty()) {
-    const std::uint8_t code = take_byte(bytes);
+    const auto code = static_cast<TokenCode>(take_byte(bytes));
     switch (code) {
-      case 0x00: halve(); break;
-      case 0x01: split("left", &Obligation::first); break;
-      case 0x02: split("right", &Obligation::second); break;
-      case 0x03: parts(); break;
-      case 0x04: expect(pop("one", true).first.count == 1 && !strict_, "one: no leaf, or strict"); break;
-      case 0x05: both(); break;
-      case 0x0e: {
+      case TokenCode::halve: halve(); break;
+      case TokenCode::left: split("left", &Obligation::first); break;
+      case TokenCode::right: split("right", &Obligation::second); break;
+      case TokenCode::parts: parts(); break;
+      case TokenCode::one: expect(pop("one", true).first.count == 1 && !strict_, "one: no leaf, or strict"); break;
+      case TokenCode::both: both(); break;
+      case TokenCode::empty: {
         const Obligation top = pop("empty", false);
         expect(vertices_of(top.first).empty() || vertices_of(top.second).empty(), "empty: both have vertices");
         break;
       }
-      case 0x10:
-      case 0x11: read_direction(bytes, code == 0x10); break;
-      case 0x20:
-      case 0x21:
-      case 0x22: drop(code - 0x20U); break;
+      case TokenCode::short_direction:
+      case TokenCode::direction: read_direction(bytes, code == TokenCode::short_direction); break;
       default: {
+        if (TokenCode::drop <= code && code <= TokenCode::last_drop) {
+          drop(past(TokenCode::drop, code));
+          break;
+        }
         std::array<double, 3> n{};
-        expect(code >= 0x08 && code <= 0x0d, "a token that is not expected");
-        n[(code - 0x08U) / 2 % 3] = code % 2 == 0 ? 1 : -1;
+        expect(TokenCode::axis <= code && code <= TokenCode::last_axis, "a token that is not expected");
+        const std::size_t k = past(TokenCode::axis, code);
+        n[k / 2 % 3] = k % 2 == 0 ? 1 : -1;
         direction(n, "axis");
       }
     }
