@@ -15,7 +15,7 @@ from fractions import Fraction
 
 import slow_check
 import slow_files
-from proof_bytes import put_sint, put_uint, put_witness, serialise
+from proof_bytes import TokenCode, put_uint, put_witness, serialise, with_numbers
 
 
 def ply(positions, cells, binary=False):
@@ -169,11 +169,11 @@ AXES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (0,
 
 def separation(rng, step, n, x, y, begin, end, eta):
     """The bytes of S, in one of its forms, or of P where a plane at rest does."""
-    kinds = [b"\x11" + b"".join(map(put_sint, n))]
+    kinds = [with_numbers(TokenCode.direction, n)]
     if all(-512 <= c < 512 for c in n):
-        kinds.append(b"\x10" + struct.pack("<I", sum((c & 1023) << 10 * k for k, c in enumerate(n))))
+        kinds.append(with_numbers(TokenCode.short_direction, n))
     if n in AXES:
-        kinds.append(bytes([8 + AXES.index(n)]))
+        kinds.append(bytes([TokenCode.axis + AXES.index(n)]))
     w = 0
     while w * w < eta * eta * slow_check.dot(n, n):
         w += max(1, w // 2)
@@ -184,8 +184,7 @@ def separation(rng, step, n, x, y, begin, end, eta):
         nd = -((-(high + w)) // 1) + rng.randrange(3)
         if high + w < nd < low:
             s = rng.choice([0, 1, 5])  # all of it times 2^(s + 1), with shifts of their own
-            kinds.append(b"\x12" + put_uint(s + 1) + b"".join(map(put_sint, n)) + put_uint(0) + put_sint(0) +
-                         put_uint(s) + put_sint(int(nd) << 1) + put_uint(0) + put_sint(w << s + 1))
+            kinds.append(with_numbers(TokenCode.half_space, [s + 1, *n, 0, 0, s, int(nd) << 1, 0, w << s + 1]))
     return rng.choice(kinds)
 
 
@@ -213,12 +212,12 @@ def prove(rng, step, root, depth=14):
         begin, end = Fraction(a, 1 << k), Fraction(b, 1 << k)
         other = x if y is None else y
         if len(x.labels) == 1 and len(other.labels) == 1 and step.claim.excludes(*x.labels, *other.labels):
-            token = b"\6"
+            token = bytes([TokenCode.excluded])
         elif y is None:
             if x.children:
-                token = b"\3" if not step.claim.strict or rng.random() < 0.8 else b"\5"
+                token = bytes([TokenCode.parts if not step.claim.strict or rng.random() < 0.8 else TokenCode.both])
             else:
-                token = b"\5" if step.claim.strict else b"\4"
+                token = bytes([TokenCode.both if step.claim.strict else TokenCode.one])
         else:
             directions = AXES[:6] + [tuple(rng.randrange(-9, 10) for _ in range(3)) for _ in range(200)]
             if not x.vertices or not y.vertices:
@@ -231,17 +230,17 @@ def prove(rng, step, root, depth=14):
                         token = separation(rng, step, n, x, y, begin, end, eta)
                         break
             if token is None and (x.children or y.children):
-                token = b"\1" if x.children and (not y.children or rng.random() < 0.5) else b"\2"
+                token = bytes([TokenCode.left if x.children and (not y.children or rng.random() < 0.5) else TokenCode.right])
             if token is None and far:
                 path = path_of_edges(step, x, y, step.claim.ring)
                 if path and (len(path) > 1 or rng.random() < 0.3 or not common):
-                    token = b"\x30" + put_uint(len(path) // 2) + b"".join(map(put_uint, path))
+                    token = with_numbers(TokenCode.ring, [len(path) // 2, *path])
             if token is None and common:
-                token = bytes([0x20 + rng.randrange(len(common))])
+                token = bytes([TokenCode.drop + rng.randrange(len(common))])
             if token is None:
                 if k >= depth:
                     raise RuntimeError("the little prover has no proof")
-                token = b"\0"
+                token = bytes([TokenCode.halve])
         tokens.append(token)
         reader = slow_files.Reader(token, "token")
         reader.u8()

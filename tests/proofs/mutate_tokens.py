@@ -7,7 +7,10 @@ What this does not do: it chooses no mutation (mutate.py).
 import corpus
 import slow_files
 from mutant import NoSuchThing, field, number, some_bytes
-from proof_bytes import numbers_of, split_tokens, with_numbers
+from proof_bytes import TokenCode, numbers_of, split_tokens, with_numbers
+
+HALVE = bytes([TokenCode.halve])
+DIRECTIONS = (TokenCode.short_direction, TokenCode.direction)
 
 
 def payload_bytes(m):
@@ -31,16 +34,19 @@ def random_token(rng, tokens):
     if what == 0:
         return rng.choice(tokens)
     if what == 1:
-        return with_numbers(0x10, [rng.choice((0, 1, -1, rng.randrange(-512, 512))) for _ in range(3)])
+        return with_numbers(TokenCode.short_direction, [rng.choice((0, 1, -1, rng.randrange(-512, 512))) for _ in range(3)])
     if what == 2:
-        return with_numbers(0x11, [rng.choice((0, 1, -1, rng.randrange(-10**6, 10**6), rng.randrange(-10**40, 10**40))) for _ in range(3)])
+        n = [rng.choice((0, 1, -1, rng.randrange(-10**6, 10**6), rng.randrange(-10**40, 10**40))) for _ in range(3)]
+        return with_numbers(TokenCode.direction, n)
     if what == 3:
         n = [rng.choice((0, 0, 1, 3, 60))] + [rng.randrange(-3, 4) for _ in range(3)]
-        return with_numbers(0x12, n + [rng.randrange(9), rng.randrange(-2, 3), rng.randrange(9), rng.randrange(-30, 30), rng.randrange(9), rng.randrange(4)])
+        n += [rng.randrange(9), rng.randrange(-2, 3), rng.randrange(9), rng.randrange(-30, 30), rng.randrange(9), rng.randrange(4)]
+        return with_numbers(TokenCode.half_space, n)
     if what == 4:
         m = rng.choice((0, 1, 1, 2, 3, 256))
-        return with_numbers(0x30, [m] + [rng.randrange(6) for _ in range(2 * m + 1)])
-    return bytes([rng.choice((0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 32, 33, 34, 35, rng.randrange(256)))])
+        return with_numbers(TokenCode.ring, [m] + [rng.randrange(6) for _ in range(2 * m + 1)])
+    short = (*range(TokenCode.halve, TokenCode.empty + 2), *range(TokenCode.drop, TokenCode.last_drop + 2))  # three are no tokens
+    return bytes([rng.choice((*short, rng.randrange(256)))])
 
 
 def token_deleted(m):
@@ -77,11 +83,11 @@ def token_inserted(m):
 def split_moved(m):
     """T is moved, or put before a token that is then needed twice, which is good."""
     block, tokens, k = tokens_of(m)
-    if b"\0" in tokens and m.rng.random() < 0.6:
-        tokens.remove(b"\0")
-        tokens.insert(m.rng.randrange(len(tokens) + 1), b"\0")
+    if HALVE in tokens and m.rng.random() < 0.6:
+        tokens.remove(HALVE)
+        tokens.insert(m.rng.randrange(len(tokens) + 1), HALVE)
     else:
-        tokens[k : k + 1] = [b"\0"] * m.rng.choice((1, 1, 1, 2)) + [tokens[k]] * m.rng.choice((2, 2, 2, 3))
+        tokens[k : k + 1] = [HALVE] * m.rng.choice((1, 1, 1, 2)) + [tokens[k]] * m.rng.choice((2, 2, 2, 3))
     block[1] = b"".join(tokens)
 
 
@@ -89,13 +95,13 @@ def split_deep(m):
     """T again and again, up to and beyond the greatest denominator; the first obligations after it are S, X or F as before."""
     block, tokens, k = tokens_of(m)
     deep = m.rng.choice((3, 20, 100, 1023, 1024, 1025))
-    tokens[k : k + 1] = [b"\0"] * deep + [tokens[k]] * (deep + 1)
+    tokens[k : k + 1] = [HALVE] * deep + [tokens[k]] * (deep + 1)
     block[1] = b"".join(tokens)
 
 
 def coefficients(m):
     block, tokens, _ = tokens_of(m)
-    with_some = [k for k, token in enumerate(tokens) if token[0] in (0x10, 0x11, 0x12, 0x30)]
+    with_some = [k for k, token in enumerate(tokens) if token[0] in (*DIRECTIONS, TokenCode.half_space, TokenCode.ring)]
     if not with_some:
         raise NoSuchThing
     k = m.rng.choice(with_some)
@@ -104,11 +110,12 @@ def coefficients(m):
     if what <= 1:
         i = m.rng.randrange(len(n))
         n[i] = number(m.rng, n[i])
-    elif what == 2 and kind != 0x30:
+    elif what == 2 and kind != TokenCode.ring:
         factor = m.rng.choice((-1, 2, 3, -2, 1 << 30, 0))
-        n = [c if kind == 0x12 and i in (0, 4, 6, 8) else c * factor for i, c in enumerate(n)]
-    elif what == 3 and kind in (0x10, 0x11):  # another form of the same
-        kind = 0x21 - kind if all(-512 <= c < 512 for c in n) else 0x11
+        n = [c if kind == TokenCode.half_space and i in (0, 4, 6, 8) else c * factor for i, c in enumerate(n)]
+    elif what == 3 and kind in DIRECTIONS:  # another form of the same
+        short = kind == TokenCode.direction and all(-512 <= c < 512 for c in n)
+        kind = TokenCode.short_direction if short else TokenCode.direction
     else:
         i, j = m.rng.randrange(len(n)), m.rng.randrange(len(n))
         n[i], n[j] = n[j], n[i]
@@ -119,7 +126,7 @@ def coefficients(m):
 def path_longer(m):
     """W whose path goes to and fro, up to and beyond the greatest length; the ring may be greater."""
     block, tokens, _ = tokens_of(m)
-    some = [k for k, token in enumerate(tokens) if token[0] == 0x30]
+    some = [k for k, token in enumerate(tokens) if token[0] == TokenCode.ring]
     if not some:
         raise NoSuchThing
     k = m.rng.choice(some)
@@ -128,7 +135,7 @@ def path_longer(m):
     cells = [c for c, cell in enumerate(m.taken.cells) if n[1] in cell] if m.taken.frames else [0]
     if more < 0 or not cells:
         raise NoSuchThing
-    tokens[k] = with_numbers(0x30, [n[0] + more, n[1]] + [m.rng.choice(cells), n[1]] * more + n[2:])
+    tokens[k] = with_numbers(TokenCode.ring, [n[0] + more, n[1]] + [m.rng.choice(cells), n[1]] * more + n[2:])
     block[1] = b"".join(tokens)
     field(m.groups[0][0], 4, "I", lambda ring: m.rng.choice((ring, n[0] + more, n[0] + more + 1, 1000)))
 
@@ -136,8 +143,8 @@ def path_longer(m):
 def plane(m):
     """S is written as P with a plane at rest, or nearly; bounds are met exactly, or missed by one."""
     block, tokens, _ = tokens_of(m)
-    axes = {bytes([8 + i]): n for i, n in enumerate(corpus.AXES[:6])}
-    some = [k for k, token in enumerate(tokens) if token in axes or token[0] in (0x10, 0x11)]
+    axes = {bytes([TokenCode.axis + i]): n for i, n in enumerate(corpus.AXES[:6])}
+    some = [k for k, token in enumerate(tokens) if token in axes or token[0] in DIRECTIONS]
     if not some:
         raise NoSuchThing
     k = m.rng.choice(some)
@@ -147,7 +154,7 @@ def plane(m):
     long_shift = m.rng.choice((0, 1, 4095, 4096, 4097)) if m.rng.random() < 0.2 else 0
     nd = m.rng.randrange(-6, 7) << m.rng.choice((0, 1, 2, 3, 4, 8)) << shift
     nt, w = m.rng.choice((0, 0, 0, 1, -1)), m.rng.choice((0, 0, 1, -1, 4 << shift))
-    tokens[k] = with_numbers(0x12, [0, *n, long_shift, nt, 0, nd, 0, w])
+    tokens[k] = with_numbers(TokenCode.half_space, [0, *n, long_shift, nt, 0, nd, 0, w])
     block[1] = b"".join(tokens)
 
 

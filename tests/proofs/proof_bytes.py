@@ -4,11 +4,32 @@
 What this does not do: it checks nothing; what it is given to take apart is well-formed, or ValueError, IndexError or
 slow_files.Rejected comes of it.
 """
+import enum
 import functools
 import hashlib
 import struct
 
 import slow_files
+
+
+class TokenCode(enum.IntEnum):
+    # As in FORMAT.md, section 4; tests/repository/token_codes_test.cpp compares them.
+    halve = 0x00
+    left = 0x01
+    right = 0x02
+    parts = 0x03
+    one = 0x04
+    both = 0x05
+    excluded = 0x06
+    axis = 0x08
+    last_axis = 0x0D
+    empty = 0x0E
+    short_direction = 0x10
+    direction = 0x11
+    half_space = 0x12
+    drop = 0x20
+    last_drop = 0x22
+    ring = 0x30
 
 
 @functools.lru_cache(maxsize=20000)
@@ -78,12 +99,12 @@ def split_tokens(payload):
     reader, tokens = slow_files.Reader(payload, "TOKS"), []
     while reader.more():
         start, token = reader.at, reader.u8()
-        if token == 0x10:
+        if token == TokenCode.short_direction:
             reader.raw(4)
-        elif token in (0x11, 0x12):
-            for _ in range(3 if token == 0x11 else 10):
+        elif token in (TokenCode.direction, TokenCode.half_space):
+            for _ in range(3 if token == TokenCode.direction else 10):
                 reader.groups_of_seven(1200)
-        elif token == 0x30:
+        elif token == TokenCode.ring:
             for _ in range(2 * reader.uint() + 1):
                 reader.uint()
         tokens.append(payload[start : reader.at])
@@ -94,28 +115,29 @@ def numbers_of(token):
     """The numbers of S, P and W."""
     reader, kind = slow_files.Reader(token, "token"), token[0]
     reader.u8()
-    if kind == 0x10:
+    if kind == TokenCode.short_direction:
         bits = reader.u32()
         return [((bits >> shift & 1023) ^ 512) - 512 for shift in (0, 10, 20)]
-    if kind == 0x11:
+    if kind == TokenCode.direction:
         return [reader.sint() for _ in range(3)]
-    if kind == 0x12:
+    if kind == TokenCode.half_space:
         return [reader.uint(), *(reader.sint() for _ in range(3))] + [f() for _ in range(3) for f in (reader.uint, reader.sint)]
-    if kind == 0x30:
+    if kind == TokenCode.ring:
         m = reader.uint()
         return [m, *(reader.uint() for _ in range(2 * m + 1))]
     return []
 
 
 def with_numbers(kind, n):
-    if kind == 0x10:
-        return b"\x10" + struct.pack("<I", sum((c & 1023) << 10 * k for k, c in enumerate(n)))
-    if kind == 0x11:
-        return b"\x11" + b"".join(map(put_sint, n))
-    if kind == 0x12:
+    first = bytes([kind])
+    if kind == TokenCode.short_direction:
+        return first + struct.pack("<I", sum((c & 1023) << 10 * k for k, c in enumerate(n)))
+    if kind == TokenCode.direction:
+        return first + b"".join(map(put_sint, n))
+    if kind == TokenCode.half_space:
         unsigned = (0, 4, 6, 8)
-        return b"\x12" + b"".join(put_uint(max(c, 0)) if k in unsigned else put_sint(c) for k, c in enumerate(n))
-    return bytes([kind]) + b"".join(put_uint(max(c, 0)) for c in n)
+        return first + b"".join(put_uint(max(c, 0)) if k in unsigned else put_sint(c) for k, c in enumerate(n))
+    return first + b"".join(put_uint(max(c, 0)) for c in n)
 
 
 def get_witness(payload):

@@ -6,8 +6,9 @@
     slow_check.py PROOF trajectory.blocks     a run
 
 It was written from proofs/FORMAT.md and trajectory/FORMAT.md and from nothing else, so that a mistake of the other checkers is not
-made here too. slow_files.py reads the files; what a claim asks, and whether a proof answers it, is here. Numbers are int and Fraction;
-each rule is spelled out where it is asked for. Exit codes and first words are those of FORMAT.md, section 7.
+made here too. slow_files.py reads the files, and a test compares TokenCode with FORMAT.md; what a claim asks, and whether a proof answers
+it, is here. Numbers are int and Fraction; each rule is spelled out where it is asked for. Exit codes and first words are those of
+FORMAT.md, section 7.
 
 What this does not do: it holds everything in memory and is no good for anything large. Where those pages leave something
 open, there is a comment that begins with OPEN.
@@ -16,6 +17,7 @@ import math
 import sys
 from fractions import Fraction
 
+from proof_bytes import TokenCode
 from slow_files import Reader, Rejected, cells_hash, groups, need, trajectory_of
 
 
@@ -161,33 +163,33 @@ class Step:
         pair, when = y is not None, (a, b, k)
         d = 1 << k
         eta = self.eta if far else 0
-        if token == 0x00:
+        if token == TokenCode.halve:
             on(k < 1024)
             return [(far, x, y, 2 * a, a + b, k + 1), (far, x, y, a + b, 2 * b, k + 1)]
-        if token == 0x01:
+        if token == TokenCode.left:
             on(pair and x.children)
             return [(far, child, y, *when) for child in x.children]
-        if token == 0x02:
+        if token == TokenCode.right:
             on(pair and y.children)
             return [(far, x, child, *when) for child in y.children]
-        if token == 0x03:
+        if token == TokenCode.parts:
             on(not pair and x.children)
             left, right = x.children
             return [(far, left, None, *when), (far, left, right, *when), (far, right, None, *when)]
-        if token == 0x04:
+        if token == TokenCode.one:
             on(not pair and not x.children and not self.claim.strict)
             return []
-        if token == 0x05:
+        if token == TokenCode.both:
             on(not pair)
             return [(far, x, x, *when)]
-        if token == 0x06:
+        if token == TokenCode.excluded:
             other = y if pair else x
             on(len(x.labels) == 1 and len(other.labels) == 1 and self.claim.excludes(*x.labels, *other.labels))
             return []
-        if 0x08 <= token <= 0x0E or token in (0x10, 0x11):
-            if token <= 0x0E:
-                n = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (0, 0, 0))[token - 8]
-            elif token == 0x10:
+        if TokenCode.axis <= token <= TokenCode.empty or token in (TokenCode.short_direction, TokenCode.direction):
+            if token <= TokenCode.empty:
+                n = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (0, 0, 0))[token - TokenCode.axis]
+            elif token == TokenCode.short_direction:
                 bits = r.u32()
                 need(bits < 1 << 30, "bits 30 and 31 of a direction")
                 n = tuple(((bits >> shift & 1023) ^ 512) - 512 for shift in (0, 10, 20))
@@ -195,19 +197,19 @@ class Step:
                 n = (r.sint(), r.sint(), r.sint())
             on(pair and self.separated(n, x, y, Fraction(a, d), Fraction(b, d), eta))
             return []
-        if token == 0x12:
+        if token == TokenCode.half_space:
             shift = r.uint(4097)
             n = tuple(r.sint() << shift for _ in range(3))
             nt, nd, w = r.scaled(), r.scaled(), r.scaled()
             on(pair and self.between_planes(n, nt, nd, w, x, y, Fraction(a, d), Fraction(b, d), eta))
             return []
-        if 0x20 <= token <= 0x22:
+        if TokenCode.drop <= token <= TokenCode.last_drop:
             on(pair and not x.children and not y.children)
             common = [v for v in x.vertices if v in y.vertices]
-            on(token - 0x20 < len(common))
-            v = common[token - 0x20]
+            on(token - TokenCode.drop < len(common))
+            v = common[token - TokenCode.drop]
             return [(far, x.without(v), y, *when), (far, x, y.without(v), *when)]
-        if token == 0x30:
+        if token == TokenCode.ring:
             m = r.uint(256)
             first = v = r.uint()
             steps = [(r.uint(), r.uint()) for _ in range(m)]
