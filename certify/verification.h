@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include <noli/sequence.h>
-#include <noli/verify.h>
 #include "certify/listed_contacts.h"
 #include "certify/proofs/step_proofs.h"
 #include "certify/queries/any_query.h"
+#include "certify/verify_work.h"
 
 namespace noli {
 
@@ -45,12 +45,12 @@ Claim claim_of_run(const VerifyRequest& request, const RunScene& scene);
 void require_can_be_asked(const VerifyRequest& request, const RunReader& run);
 
 /// run_verify() for frames, and for a run.
-VerifyOutcome verify_frames(const VerifyRequest& request);
-VerifyOutcome verify_run(const VerifyRequest& request);
+VerifyOutcome verify_frames(const VerifyWork& request);
+VerifyOutcome verify_run(const VerifyWork& request);
 
 class Verification {
  protected:
-  explicit Verification(const VerifyRequest& request) : request_(request), listed_(request.max_reports) {}
+  explicit Verification(const VerifyWork& request) : request_(request), listed_(request.max_reports) {}
 
   bool stopped() { return outcome_.stop_for(request_); }
   /// Whether enough was found to stop.
@@ -91,7 +91,7 @@ class Verification {
   /// `all`: every step was verified.
   void set_verdict(bool all);
 
-  const VerifyRequest& request_;
+  const VerifyWork& request_;
   VerifyOutcome outcome_;
   ContactList listed_;
 };

@@ -38,7 +38,7 @@ bool VerifyOutcome::stop_for(const VerifyRequest& request) {
   return interrupted || out_of_time;
 }
 
-void VerifyRequest::prepare_to_reproduce() {
+void VerifyWork::prepare_to_reproduce() {
   if (reproduce && !run) {
     throw UsageError("--reproduce: is for a run of `noli simulate`; expected its folder, found frames");
   }
@@ -55,8 +55,12 @@ void VerifyRequest::prepare_to_reproduce() {
   }
 }
 
+VerifyOutcome run_verify(const VerifyWork& work) { return work.run ? verify_run(work) : verify_frames(work); }
+
 VerifyOutcome run_verify(const VerifyRequest& request) {
-  return request.run ? verify_run(request) : verify_frames(request);
+  VerifyWork work(request);
+  work.prepare_to_reproduce();
+  return run_verify(work);
 }
 
 }  // namespace noli

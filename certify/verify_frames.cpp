@@ -81,7 +81,7 @@ class TrajectoryFile {
 
 class SequenceVerification : private Verification {
  public:
-  explicit SequenceVerification(const VerifyRequest& request)
+  explicit SequenceVerification(const VerifyWork& request)
       : Verification(request),
         source_(open_all_frames(request.frames, reading_of(request))),
         sequence_(*source_, motion_of(request)) {
@@ -536,6 +536,6 @@ class SequenceVerification : private Verification {
 
 }  // namespace
 
-VerifyOutcome verify_frames(const VerifyRequest& request) { return SequenceVerification(request)(); }
+VerifyOutcome verify_frames(const VerifyWork& request) { return SequenceVerification(request)(); }
 
 }  // namespace noli

@@ -47,7 +47,7 @@ std::optional<std::uint64_t> windows_total(const RunEnding& ending, std::uint64_
 
 class RunVerification : private Verification {
  public:
-  explicit RunVerification(const VerifyRequest& request)
+  explicit RunVerification(const VerifyWork& request)
       : Verification(request),
         run_(request.frames.at(0)),
         live_(request.live),
@@ -400,6 +400,6 @@ void require_can_be_asked(const VerifyRequest& request, const RunReader& run) {
   }
 }
 
-VerifyOutcome verify_run(const VerifyRequest& request) { return RunVerification(request)(); }
+VerifyOutcome verify_run(const VerifyWork& request) { return RunVerification(request)(); }
 
 }  // namespace noli

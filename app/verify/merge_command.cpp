@@ -32,7 +32,7 @@ struct MergeArguments {
 
 ExitCode run(const MergeArguments& arguments) {
   const auto deadline = begin_work(arguments.time_limit);
-  VerifyRequest request = request_of_shards(arguments.folder);
+  VerifyWork request = request_of_shards(arguments.folder);
   if (arguments.proof && !are_proved(request)) {
     throw UsageError("--proof: the shards were made with --no-check, without proofs; expected shards with proofs");
   }

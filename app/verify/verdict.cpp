@@ -30,7 +30,7 @@ namespace {
 /// The motion of a run, kept open: whoever replaces the run while it is read makes another file.
 class MotionFile {
  public:
-  explicit MotionFile(const VerifyRequest& request) {
+  explicit MotionFile(const VerifyWork& request) {
     if (!request.run) return;
     path_ = trajectory_path(request.frames[0]);
     file_.take(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -48,7 +48,7 @@ class MotionFile {
 };
 
 /// "step 3 of 11, cloth_4.obj": which part of the work a share of it is.
-std::string where(const VerifyRequest& request, std::string_view work, double share) {
+std::string where(const VerifyWork& request, std::string_view work, double share) {
   const std::size_t count = request.frames.size() - (work == "look" || request.constant_motion ? 0 : 1);
   const auto done = static_cast<std::size_t>(share * static_cast<double>(count));
   const std::size_t number = std::min(done + 1, count), frame = request.frames.size() - count + number - 1;
@@ -56,7 +56,7 @@ std::string where(const VerifyRequest& request, std::string_view work, double sh
                      on_one_line(request.frames[frame].filename().string()));
 }
 
-VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
+VerifyOutcome verify(const VerifyWork& request, ProofRoute& route) {
   const MotionFile motion(request);
   try {
     VerifyOutcome outcome = run_verify(request);
@@ -70,7 +70,7 @@ VerifyOutcome verify(const VerifyRequest& request, ProofRoute& route) {
 
 }  // namespace
 
-std::vector<OutputFile> files_of(const VerifyRequest& request, const VerdictOutputs& outputs) {
+std::vector<OutputFile> files_of(const VerifyWork& request, const VerdictOutputs& outputs) {
   std::vector<OutputFile> files;
   if (const auto& proof = request.proof) {
     if (*proof == "-") throw UsageError("--proof -: a proof is not text; expected the name of a file");
@@ -102,7 +102,7 @@ ExitCode exit_code(Verdict verdict) {
   return ExitCode::failure;
 }
 
-ExitCode answer(VerifyRequest& request, const VerdictOutputs& outputs, const Output& output) {
+ExitCode answer(VerifyWork& request, const VerdictOutputs& outputs, const Output& output) {
   ProofRoute route(request);
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);

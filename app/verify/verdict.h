@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include <noli/verify.h>
 #include "app/exit_code.h"
 #include "app/output.h"
+#include "certify/verify_work.h"
 
 namespace noli::app {
 
@@ -21,10 +21,10 @@ struct VerdictOutputs {
 };
 
 /// The files that are written beside the JSON. Throws UsageError for "-", which none of them can be.
-std::vector<OutputFile> files_of(const VerifyRequest& request, const VerdictOutputs& outputs);
+std::vector<OutputFile> files_of(const VerifyWork& request, const VerdictOutputs& outputs);
 
 /// Frames of one mesh, or a run. Throws as run_verify() and ProofRoute::check().
-ExitCode answer(VerifyRequest& request, const VerdictOutputs& outputs, const Output& output);
+ExitCode answer(VerifyWork& request, const VerdictOutputs& outputs, const Output& output);
 
 ExitCode exit_code(Verdict verdict);
 

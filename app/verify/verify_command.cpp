@@ -56,7 +56,7 @@ constexpr const char* verify_footer =
     "  noli verify runs/ring --reproduce             a run that recorded frames only\n";
 
 struct VerifyArguments {
-  VerifyRequest request;
+  VerifyWork request;
   BodyArguments bodies;
   std::vector<std::filesystem::path> given;  ///< files that stand for frames: lists, series
   VerdictOutputs outputs;
@@ -67,7 +67,7 @@ struct VerifyArguments {
 
 /// The files that names on the command line stand for.
 void name_frames(VerifyArguments& arguments) {
-  VerifyRequest& request = arguments.request;
+  VerifyWork& request = arguments.request;
   arguments.given = files_named(request.frames);
   if (request.frames.empty() && !arguments.bodies.any()) {
     throw UsageError("`noli verify` needs FRAMES, bodies (--body) or the folder of a run; see `noli verify --help`");
@@ -85,7 +85,7 @@ struct MeshesWanted {
   bool json = false, details = false;
 };
 
-report::MeshVerdict verify_mesh(VerifyRequest request, MeshesWanted wanted, ProgressBars& bars, double done,
+report::MeshVerdict verify_mesh(VerifyWork request, MeshesWanted wanted, ProgressBars& bars, double done,
                                 double share) {
   const std::string file = request.frames[0].string();
   ProofRoute route(request);
@@ -99,14 +99,14 @@ report::MeshVerdict verify_mesh(VerifyRequest request, MeshesWanted wanted, Prog
 
 /// Verifies each file of the request alone. When the process is interrupted, the files that are left are undecided.
 /// Throws as run_verify() and ProofRoute::check().
-std::vector<report::MeshVerdict> verify_meshes(VerifyRequest request, MeshesWanted wanted) {
+std::vector<report::MeshVerdict> verify_meshes(VerifyWork request, MeshesWanted wanted) {
   std::vector<report::MeshVerdict> meshes;
   ProgressBars bars;
   const auto files = std::exchange(request.frames, {});  // not copied for each of them
   const double share = 1 / static_cast<double>(files.size());
   request.stop = &interrupted();
   for (const auto& file : files) {
-    VerifyRequest one = request;
+    VerifyWork one = request;
     one.frames = {file};
     meshes.push_back(verify_mesh(std::move(one), wanted, bars, share * static_cast<double>(meshes.size()), share));
   }
@@ -114,8 +114,7 @@ std::vector<report::MeshVerdict> verify_meshes(VerifyRequest request, MeshesWant
 }
 
 /// Files with different meshes, each at rest.
-ExitCode verify_each(VerifyRequest asked, const VerifyArguments& arguments, const Output& output,
-                     const OtherMesh& error) {
+ExitCode verify_each(VerifyWork asked, const VerifyArguments& arguments, const Output& output, const OtherMesh& error) {
   const bool single = asked.proof || asked.trajectory || arguments.outputs.claim_out || arguments.outputs.junit ||
                       arguments.outputs.github || asked.only_new || asked.merge_identical || asked.ignore ||
                       !asked.reading.bodies.empty();
@@ -134,7 +133,7 @@ ExitCode verify_each(VerifyRequest asked, const VerifyArguments& arguments, cons
 
 /// Outputs of one process, or of the first rank; the others write none.
 std::unique_ptr<const Output> output_of(const VerifyArguments& arguments, const Ranks* ranks) {
-  const VerifyRequest& request = arguments.request;
+  const VerifyWork& request = arguments.request;
   if (ranks != nullptr && !ranks->is_first()) return nullptr;
   auto inputs = request.frames;
   inputs.insert(inputs.end(), arguments.given.begin(), arguments.given.end());
@@ -156,7 +155,7 @@ ShardWork shard_work(const VerifyArguments& arguments) {
 }
 
 ExitCode run(VerifyArguments& arguments) {
-  VerifyRequest& request = arguments.request;
+  VerifyWork& request = arguments.request;
   if (Ranks::started_by_mpirun() && !arguments.shard.empty()) {
     throw UsageError("--shard: mpirun already divides the steps among its ranks; drop one of the two");
   }
@@ -194,7 +193,7 @@ ExitCode run(VerifyArguments& arguments) {
   if (request.min_distance == 0 && request.ring > 1) {
     throw UsageError("--min-distance-from-ring: only works with --min-distance DISTANCE; add that");
   }
-  VerifyRequest asked = request.constant_motion ? request : VerifyRequest{};
+  VerifyWork asked = request.constant_motion ? request : VerifyWork{};
   if (!arguments.shard.empty()) return answer_shard(request, shard_work(arguments), *output);
   if (ranks) return answer_in_ranks(request, arguments.shards, *ranks, arguments.outputs, output.get());
   try {
@@ -207,7 +206,7 @@ ExitCode run(VerifyArguments& arguments) {
 
 /// What a first use needs.
 void add_options(CLI::App& command, VerifyArguments& arguments) {
-  VerifyRequest& request = arguments.request;
+  VerifyWork& request = arguments.request;
   CLI::Option* const frames =
       command
           .add_option("frames", request.frames,
@@ -257,7 +256,7 @@ void add_options(CLI::App& command, VerifyArguments& arguments) {
 
 /// What changes the claim.
 void add_question_options(CLI::App& command, VerifyArguments& arguments) {
-  VerifyRequest& request = arguments.request;
+  VerifyWork& request = arguments.request;
   const auto flag = [&command](const char* name, bool& value, const char* help) {
     command.add_flag(name, value, help)->group(group::question);
   };
@@ -303,7 +302,7 @@ void add_question_options(CLI::App& command, VerifyArguments& arguments) {
       ->group(group::question);
 }
 
-void add_run_options(CLI::App& command, VerifyRequest& request) {
+void add_run_options(CLI::App& command, VerifyWork& request) {
   constexpr const char* runs = "Runs of noli simulate";
   command
       .add_flag("--follow", request.follow,

@@ -53,7 +53,7 @@ report::Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome, 
 
 }  // namespace
 
-ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesystem::path>& shards, Ranks& ranks,
+ExitCode answer_in_ranks(VerifyWork& request, const std::optional<std::filesystem::path>& shards, Ranks& ranks,
                          const VerdictOutputs& outputs, const Output* output) {
   if (request.live && !request.follow) {
     throw UsageError(
@@ -74,7 +74,7 @@ ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesy
   ranks.barrier();
   ExitCode code = ExitCode::holds;
   if (output != nullptr) {
-    VerifyRequest whole = request_of_shards(work.folder);
+    VerifyWork whole = request_of_shards(work.folder);
     whole.proof = request.proof;
     whole.check = request.check;
     whole.threads = threads;  // the other ranks wait
@@ -85,7 +85,7 @@ ExitCode answer_in_ranks(VerifyRequest& request, const std::optional<std::filesy
   return ranks.end(code);
 }
 
-ExitCode answer_shard(VerifyRequest& request, const ShardWork& work, const Output& output) {
+ExitCode answer_shard(VerifyWork& request, const ShardWork& work, const Output& output) {
   request.stop = &interrupted();
   std::optional<ProgressBars> bars(std::in_place);
   request.progress = [&](std::string_view what, double share) { bars->show(what, share, ""); };

@@ -72,7 +72,7 @@ class BothSinks : public Sink {
 
 }  // namespace
 
-ProofRoute::ProofRoute(VerifyRequest& request) : request_(request) {
+ProofRoute::ProofRoute(VerifyWork& request) : request_(request) {
   if ((request.lines_in_no_file || frames_are_streamed()) && request.check && request.min_distance == 0) {
     request.trajectory_pipe = &pipe_.emplace(request.deadline);
   }

@@ -22,18 +22,18 @@
 #include <string>
 #include <vector>
 
-#include <noli/verify.h>
 #include "certify/process/scratch_folder.h"
 #include "certify/process/unfinished_file.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/trajectory_pipe.h"
+#include "certify/verify_work.h"
 
 namespace noli {
 
 class ProofRoute {
  public:
   /// `request` has to outlive this. Throws std::system_error.
-  explicit ProofRoute(VerifyRequest& request);
+  explicit ProofRoute(VerifyWork& request);
 
   /// Has the checker say what it thinks of a proof that is complete. What it refuses is an error of this program:
   /// throws std::runtime_error; or of the shards that were joined: throws InputError.
@@ -52,7 +52,7 @@ class ProofRoute {
   std::optional<std::string> why_not(const VerifyOutcome& outcome) const;
   void stopped(VerifyOutcome& outcome) const;
 
-  VerifyRequest& request_;
+  VerifyWork& request_;
   bool can_check_ = false;
   std::optional<ScratchFolder> folder_;
   std::optional<UnfinishedFile> unfinished_;

@@ -47,7 +47,7 @@ void require_written(const RepairOutcome& outcome) {
 }  // namespace
 
 void verify_repaired(const RepairRequest& request, RepairOutcome& outcome) {
-  VerifyRequest again;
+  VerifyWork again;
   for (const RepairedFrame& frame : outcome.written) again.frames.emplace_back(frame.facts.file);
   again.order = FrameOrder::given;
   again.put_in_order();

@@ -65,7 +65,7 @@ class DecidedShards : public DecidedSteps {
 class DecidedParts : public DecidedShards {
  public:
   /// `request`: the one of the folder.
-  DecidedParts(ShardFolder folder, const VerifyRequest& request)
+  DecidedParts(ShardFolder folder, const VerifyWork& request)
       : DecidedShards(std::move(folder), false), max_reports_(reports_of_step(request)) {}
 
   StepResult result(std::uint64_t step, const Mesh& mesh, const RunWindow* window) override;

@@ -73,13 +73,13 @@ Json bodies_json(const std::vector<BodyFrames>& bodies) {
   return list;
 }
 
-Json ignore_json(const VerifyRequest& request) {
+Json ignore_json(const VerifyWork& request) {
   if (!request.ignore) return nullptr;
   return {{"file", escaped(*request.ignore)}, {"sha256", hex(sha256(InputFile(*request.ignore).read_to_end()))}};
 }
 
 /// From which scene the windows are integrated again.
-Json reproduce_json(const VerifyRequest& request) {
+Json reproduce_json(const VerifyWork& request) {
   if (!request.reproduce) return nullptr;
   const fs::path& run = request.frames.at(0);
   return {{"manifest", hex(manifest_hash(run))}, {"scene", hex(sha256(read_scene(run, read_manifest(run))))}};
@@ -87,9 +87,9 @@ Json reproduce_json(const VerifyRequest& request) {
 
 }  // namespace
 
-bool are_proved(const VerifyRequest& request) { return request.check || request.needs_proof(); }
+bool are_proved(const VerifyWork& request) { return request.check || request.needs_proof(); }
 
-Json request_json(const VerifyRequest& request) {
+Json request_json(const VerifyWork& request) {
   return {{"format", "noli shards"},
           {"version", 1},
           {"noli", {{"version", version_number()}, {"commit", version_commit()}}},
@@ -119,8 +119,8 @@ Json request_json(const VerifyRequest& request) {
           {"frames", names_json(request.frames)}};
 }
 
-VerifyRequest request_of_json(const Json& json) {
-  VerifyRequest request;
+VerifyWork request_of_json(const Json& json) {
+  VerifyWork request;
   if (!json.at("dimension").is_null()) request.dimension = between(json.at("dimension"), 2, 3);
   request.max_reports = json.at("max_reports").get<std::size_t>();
   request.keep_going = json.at("keep_going").get<bool>();

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_files(const VerifyRequest& request) {
+void require_files(const VerifyWork& request) {
   if (request.trajectory) throw UsageError("--trajectory: writes all frames; drop it when they are verified in parts");
   const bool files =
       std::ranges::all_of(request.frames, [](const fs::path& file) { return fs::is_regular_file(file); });
@@ -33,7 +33,7 @@ void require_files(const VerifyRequest& request) {
   }
 }
 
-void require_divisible(const VerifyRequest& request) {
+void require_divisible(const VerifyWork& request) {
   if (request.run) throw UsageError("--divide: cuts the step between two frames; expected frames, found a run");
   if (request.first_only) throw UsageError("--divide: all parts count contacts; expected no --first-only");
   if (!verifier_proves(request)) {
@@ -44,7 +44,7 @@ void require_divisible(const VerifyRequest& request) {
 
 class Frames : public ShardMotion {
  public:
-  explicit Frames(const VerifyRequest& request)
+  explicit Frames(const VerifyWork& request)
       : frames_(open_all_frames(request.frames, request.reading)),
         motion_(request.constant_motion ? Motion::constant : Motion::linear) {}
 
@@ -72,7 +72,7 @@ class Frames : public ShardMotion {
 
 class Windows : public ShardMotion {
  public:
-  explicit Windows(const VerifyRequest& request) : request_(request), run_(request.frames.at(0)), counted_(run_) {
+  explicit Windows(const VerifyWork& request) : request_(request), run_(request.frames.at(0)), counted_(run_) {
     require_can_be_asked(request, counted_);
     if (request.reproduce)
       ReproducedWindows::of(run_, request.scene_folder, counted_.scene(), {});  // are its files there?
@@ -134,7 +134,7 @@ class Windows : public ShardMotion {
     }
   }
 
-  const VerifyRequest& request_;
+  const VerifyWork& request_;
   fs::path run_;
   RunReader counted_;  ///< behind the last window that was there
   Json claim_;
@@ -143,7 +143,7 @@ class Windows : public ShardMotion {
 
 }  // namespace
 
-std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request) {
+std::unique_ptr<ShardMotion> motion_of_shards(const VerifyWork& request) {
   if (request.divide) require_divisible(request);
   if (!request.run) {
     require_files(request);

@@ -12,8 +12,8 @@
 #include <functional>
 #include <memory>
 
-#include <noli/verify.h>
 #include "certify/shards/shard_file.h"
+#include "certify/verify_work.h"
 
 namespace noli {
 
@@ -31,13 +31,13 @@ class ShardMotion {
   virtual void wait_for(std::uint64_t /*count*/, const std::function<bool()>& /*needed*/) {}
   /// Whether a whole shard was made from these steps as they are now. Throws InputError, Stopped.
   virtual bool is_source_of(const ShardReader& shard, const StepRange& range) = 0;
-  /// For VerifyRequest::before.
+  /// For VerifyWork::before.
   virtual const CommitPoint* before(const StepRange& /*range*/) { return nullptr; }
 };
 
 /// Throws UsageError for what cannot be cut into parts: frames in no regular file, world lines in no file; with
 /// `divide` also a run, first_only, only_new, ignore and a least distance. Waits for windows that are still to come if
 /// `request.follow`. `request` must outlive it.
-std::unique_ptr<ShardMotion> motion_of_shards(const VerifyRequest& request);
+std::unique_ptr<ShardMotion> motion_of_shards(const VerifyWork& request);
 
 }  // namespace noli

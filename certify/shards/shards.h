@@ -3,7 +3,7 @@
 // Verifies frames or a run in parts, by processes that share nothing but a folder, and joins what they found.
 //
 //   noli::verify_shard(request, {.folder = "shards", .number = 3, .of = 64});      // in each of 64 processes
-//   noli::VerifyRequest whole = noli::request_of_shards("shards");                 // in one, when all are done
+//   noli::VerifyWork whole = noli::request_of_shards("shards");                 // in one, when all are done
 //   whole.open_proof = noli::proof_to_file("all.noli");
 //   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again
 //
@@ -25,7 +25,7 @@
 #include <functional>
 #include <optional>
 
-#include <noli/verify.h>
+#include "certify/verify_work.h"
 
 namespace noli {
 
@@ -59,19 +59,19 @@ struct ShardOutcome {
 };
 
 /// A folder for the shards of a request that no other request has: noli-shards-HASH in the current folder.
-std::filesystem::path usual_shard_folder(const VerifyRequest& request);
+std::filesystem::path usual_shard_folder(const VerifyWork& request);
 
 /// Does tasks of a request and writes their shards; the folder is made if it is not there. Proofs are made if the
 /// request has `check`, `proof`, or a least distance. Of a run that is being written, it does the windows that are
 /// there, with `follow` also those to come. Throws as run_verify(), and UsageError for what cannot be cut into parts:
 /// frames that are in no regular file, world lines that are in no file and are to be checked, shards of another request
 /// in the folder; with `divide` also more than one step, first_only, only_new, ignore, and a least distance.
-ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work);
+ShardOutcome verify_shard(const VerifyWork& request, const ShardWork& work);
 
 /// The request whose shards are in a folder, for run_verify(), which then throws InputError when a shard is missing,
 /// damaged, or was made from other files or windows. Whether and how a proof is written, threads and limits are for the
 /// caller to set. One run_verify() at a time. Throws InputError when the folder has no shards of this version, or the
 /// run is not there.
-VerifyRequest request_of_shards(const std::filesystem::path& folder);
+VerifyWork request_of_shards(const std::filesystem::path& folder);
 
 }  // namespace noli

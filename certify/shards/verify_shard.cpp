@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 class ShardMaker : private StepParts {
  public:
-  ShardMaker(const VerifyRequest& request, const ShardWork& work)
+  ShardMaker(const VerifyWork& request, const ShardWork& work)
       : request_(request),
         work_(work),
         proved_(noli::are_proved(request)),
@@ -72,7 +72,7 @@ class ShardMaker : private StepParts {
   void make_parts() {
     next_part_ = next_missing();
     if (!next_part_) return;
-    VerifyRequest request = request_;
+    VerifyWork request = request_;
     request.parts = this;
     request.proof.reset();
     request.open_proof = nullptr;
@@ -156,7 +156,7 @@ class ShardMaker : private StepParts {
     const fs::path proof = scratch.path() / "proof.noli";
     std::vector<StepResult> decisions;
     std::vector<Sha256Digest> windows;
-    VerifyRequest part = request_;
+    VerifyWork part = request_;
     part.only = range;
     part.decisions = &decisions;
     part.windows = &windows;
@@ -247,7 +247,7 @@ class ShardMaker : private StepParts {
     }
   }
 
-  const VerifyRequest& request_;
+  const VerifyWork& request_;
   const ShardWork& work_;
   bool proved_;
   std::unique_ptr<ShardMotion> motion_;
@@ -263,17 +263,17 @@ class ShardMaker : private StepParts {
 
 }  // namespace
 
-fs::path usual_shard_folder(const VerifyRequest& request) {
+fs::path usual_shard_folder(const VerifyWork& request) {
   const std::string hash = hex(sha256(to_text(request_json(request))));
   return "noli-shards-" + hash.substr(0, 12);
 }
 
-ShardOutcome verify_shard(const VerifyRequest& request, const ShardWork& work) { return ShardMaker(request, work)(); }
+ShardOutcome verify_shard(const VerifyWork& request, const ShardWork& work) { return ShardMaker(request, work)(); }
 
-VerifyRequest request_of_shards(const fs::path& folder) {
+VerifyWork request_of_shards(const fs::path& folder) {
   ShardFolder shards(folder);
   return reading((folder / "request.json").string(), [&] {
-    VerifyRequest request = request_of_json(shards.request());
+    VerifyWork request = request_of_json(shards.request());
     const Json now = request_json(request);
     for (const char* const member : {"ignore", "reproduce"}) {  // whose files have to be the same
       if (now.at(member) == shards.request().at(member)) continue;

@@ -38,17 +38,7 @@
 
 namespace noli {
 
-class DecidedSteps;
-struct CommitPoint;
-class TrajectoryPipe;
 class Sink;
-class StepParts;
-struct StepResult;
-
-/// Steps first, first + 1, ..., end - 1, from 0.
-struct StepRange {
-  std::uint64_t first = 0, end = 0;
-};
 
 struct VerifyRequest {
   std::vector<std::filesystem::path> frames;  ///< files in the order of time, or the folder of one run
@@ -90,19 +80,6 @@ struct VerifyRequest {
   /// If the step has no proof after all, the sink is truncated to the length that it had before.
   bool open_proof_at_once = false;
 
-  // For `noli verify` itself.
-  bool lines_in_no_file = false;                 ///< of a run that is reproduced: it recorded frames alone
-  TrajectoryPipe* trajectory_pipe = nullptr;     ///< on which the checker reads the motion; nothing: nobody does
-  std::optional<StepRange> only;                 ///< decide these steps alone
-  std::vector<StepResult>* decisions = nullptr;  ///< gets what was found in each step, without its proof
-  /// Of a run with `only`: gets the hash of the group of the first window of all, then of each that was decided.
-  std::vector<std::array<std::uint8_t, 32>>* windows = nullptr;
-  const CommitPoint* before =
-      nullptr;          ///< of a run with `only`: where the window before those begins, if there are others before it
-  bool divide = false;  ///< verify_shard() decides the only step in parts (--divide); the answer is the same
-  StepParts* parts = nullptr;  ///< decide only these parts, and hand each over; the outcome then has no verdict
-  std::shared_ptr<DecidedSteps> decided;  ///< has what would be found in each step
-
   /// Without a proof there is no answer.
   bool needs_proof() const { return proof || min_distance > 0; }
   /// What messages call a step: "window" of a run, "frame" at rest, "step".
@@ -110,8 +87,6 @@ struct VerifyRequest {
 
   /// Puts `frames` into `order`. Throws InputError when they are given against their numbers.
   void put_in_order();
-  /// Checks what goes with `reproduce`, and sets lines_in_no_file. Throws UsageError, InputError.
-  void prepare_to_reproduce();
 };
 
 /// `too_near`: nothing touches, but something comes nearer than min_distance. `proved`: no contact, and the checker

@@ -224,7 +224,7 @@ class Outcome {
   }
 
   OneAtATime one_at_a_time_;
-  VerifyRequest request_;
+  VerifyWork request_;
   VerifyOutcome outcome_;
   std::optional<Frames> given_;
   std::shared_ptr<const IgnoredGroups> ignored_;

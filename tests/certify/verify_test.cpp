@@ -67,7 +67,7 @@ TEST_F(VerifyInProcess, SomethingTouches) {
 
 /// Frames of steps without contacts are gone when the shards are joined: none of them is read.
 TEST_F(VerifyInProcess, JoinsShardsFromTheFramesWithContactsAlone) {
-  VerifyRequest request;
+  VerifyWork request;
   for (int k = 0; k < 12; ++k) {
     request.frames.emplace_back(frame(std::to_string(k) + ".obj", k == 6 ? 0.25 : 1.5, k < 6 ? 1 : -1));
   }
@@ -75,7 +75,7 @@ TEST_F(VerifyInProcess, JoinsShardsFromTheFramesWithContactsAlone) {
   request.check = false;
   const std::filesystem::path shards = folder.path() / "shards";
   EXPECT_EQ(verify_shard(request, {.folder = shards}).first_touch, 6U);
-  VerifyRequest whole = request_of_shards(shards);
+  VerifyWork whole = request_of_shards(shards);
   whole.progress = [&](std::string_view work, double /*share*/) {
     if (work != "verify") return;
     for (const int k : {2, 3, 4, 8, 9, 10, 11}) std::filesystem::remove(request.frames[k]);

@@ -199,7 +199,7 @@ TEST_F(RunShards, OfARunThatWasReplacedMeanwhileAreRefused) {
   write_run(2, 16, 6);
   fs::rename(run_path(), folder.path("second"));
   fs::rename(folder.path("first"), run_path());
-  VerifyRequest request;
+  VerifyWork request;
   request.frames = {run_path()};
   request.run = true;
   request.check = false;
