@@ -18,6 +18,12 @@
 namespace noli {
 namespace {
 
+/// Before the first frame, so that earlier files of the pattern stay.
+void end_if_asked(const ExportRequest& request) {
+  if (request.stop == nullptr || !request.stop->load(std::memory_order_relaxed)) return;
+  throw Stopped(StopReason::interrupted, request.run.string());
+}
+
 class Export {
  public:
   Export(const ExportRequest& request, const FrameWriter& write)
@@ -36,6 +42,7 @@ class Export {
       if (request_.progress) request_.progress(std::min(1.0, static_cast<double>(outcome_.windows) / windows));
       outcome_.end = window->end;
     }
+    if (files_.count() == 0) end_if_asked(request_);
     if (outcome_.windows == 0 && !outcome_.interrupted) {
       throw InputError(request_.run.string(), "", "has no windows that are committed; there is nothing to export");
     }
@@ -70,7 +77,11 @@ class Export {
 
 }  // namespace
 
-ExportOutcome export_frames(const ExportRequest& request, const FrameWriter& write) { return Export(request, write)(); }
+ExportOutcome export_frames(const ExportRequest& request, const FrameWriter& write) {
+  const StopOfThread stop_of_thread(request.stop);
+  end_if_asked(request);
+  return Export(request, write)();
+}
 
 ExportOutcome run_export(const ExportRequest& request) {
   return export_frames(request, frame_writer_of(request.pattern));

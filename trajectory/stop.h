@@ -37,8 +37,10 @@ inline void forget_stops() noexcept { stop_detail::asked.store(0, std::memory_or
 /// this one starts do not hear it. One within another takes its place.
 class StopOfThread {
  public:
-  explicit StopOfThread(const std::atomic<bool>& stop) noexcept
-      : outer_(std::exchange(stop_detail::of_thread, &stop)) {}
+  explicit StopOfThread(const std::atomic<bool>& stop) noexcept : StopOfThread(&stop) {}
+  /// The same; nullptr: what the thread heard before goes on.
+  explicit StopOfThread(const std::atomic<bool>* stop) noexcept
+      : outer_(std::exchange(stop_detail::of_thread, stop != nullptr ? stop : stop_detail::of_thread)) {}
   ~StopOfThread() { stop_detail::of_thread = outer_; }
   StopOfThread(const StopOfThread&) = delete;
   StopOfThread& operator=(const StopOfThread&) = delete;

@@ -53,8 +53,7 @@ class Giving {
  private:
   /// If a frame cannot be read, the motion ends before it: that may be all that is asked of the proof.
   void give(FrameSource& frames) {
-    std::optional<StopOfThread> stop_of_thread;
-    if (stop_ != nullptr) stop_of_thread.emplace(*stop_);
+    const StopOfThread stop_of_thread(stop_);
     try {
       write_all(frames, pipe_.sink(), [this] {
         pipe_.drained();

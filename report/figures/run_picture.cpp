@@ -96,6 +96,7 @@ View view_from(const PictureView& asked, int dimension) {
 }
 
 ExportOutcome run_film(const FilmRequest& request) {
+  const StopOfThread stop_of_thread(request.frames.stop);
   require_pictures();
   const SeriesReader reader = open_run(request.frames.run);
   const std::vector<bool> fixed = fixed_of(reader.scene());

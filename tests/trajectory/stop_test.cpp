@@ -68,6 +68,17 @@ TEST(Stop, OfAThreadIsHeardByThatThreadAlone) {
   EXPECT_FALSE(stop_asked());
 }
 
+TEST(Stop, OfAThreadMayBeNone) {
+  const std::atomic<bool> stop = true;
+  const StopOfThread of_thread(stop);
+  {
+    const StopOfThread none(nullptr);
+    EXPECT_EQ(stop_of_thread(), &stop);
+    EXPECT_TRUE(stop_asked());
+  }
+  EXPECT_EQ(stop_of_thread(), &stop);
+}
+
 TEST(InputFile, TheStopOfAThreadEndsItsWaitForAPipe) {
   const test::TemporaryFolder folder;
   const auto pipe = folder / "pipe";

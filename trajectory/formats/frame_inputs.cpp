@@ -111,8 +111,7 @@ void FrameInputs::load_ahead(std::size_t k) {
   const std::atomic<bool>* const stop = stop_of_thread();
   try {
     loaded_ahead_ = std::async(std::launch::async, [this, k, stop] {
-      std::optional<StopOfThread> stop_here;
-      if (stop != nullptr) stop_here.emplace(*stop);
+      const StopOfThread stop_here(stop);
       return load(k);
     });
     ahead_ = k;
