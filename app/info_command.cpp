@@ -6,16 +6,17 @@
 #include <memory>
 
 #include <noli/errors.h>
+#include <noli/proof.h>
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "certify/process/hdf5_frames.h"
-#include "certify/proofs/proof_info.h"
 #include "certify/queries/any_query.h"
 #include "certify/queries/ccd_run.h"
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_info.h"
+#include "report/proof_report.h"
 #include "trajectory/formats/arrays/array_frames.h"
 #include "trajectory/formats/arrays/converted_frames.h"
 #include "trajectory/formats/file_info.h"
@@ -102,7 +103,7 @@ Json info_of(const std::filesystem::path& path) {
                      "first contact");
   }
   if (std::filesystem::is_directory(path)) return run_info(path);
-  if (is_proof(path)) return proof_info(path);
+  if (is_proof(path)) return report::proof_json(path, inspect_proof(path));
   if (extension_of(path) == ".csv") return query_info(path);
   return holds_frames(path) && !is_frame_name(path) ? motion_info(path) : mesh_info(path);
 }

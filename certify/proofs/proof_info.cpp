@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/proofs/proof_info.h"
+#include <noli/proof.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <noli/errors.h>
 #include "certify/proofs/parsed_claim.h"
@@ -26,35 +33,37 @@ std::string place(const Block& block) { return fmt::format("byte {}", block.payl
 /// The contents of the committed groups.
 class Contents {
  public:
-  explicit Contents(const std::filesystem::path& path) : path_(path.string()), reader_(path, proof_content) {
+  Contents(const std::filesystem::path& path, const std::function<void(double)>& progress)
+      : path_(path.string()), reader_(path, proof_content) {
+    const auto size = static_cast<double>(std::filesystem::file_size(path));
     while (auto block = reader_.next()) {
       end_if_stopped();
+      const auto read = static_cast<double>(block->payload_offset() + block->payload.size());
+      if (progress) progress(std::min(1.0, read / size));
       add(*block);
     }
     if (!claim_) throw InputError(path_, "", "ends before its claim is committed");
+    if (progress) progress(1);
   }
 
-  Json json() const {
-    static constexpr std::array<const char*, 3> sources = {"frames", "frames at rest", "a run"};
+  ProofInfo info() const {
+    static constexpr std::array<const char*, 3> motions = {"linear", "rest", "run"};
     const auto source = static_cast<std::size_t>(claim_->source);
-    Json json = {{"file", path_},
-                 {"format", "Noli proof"},
-                 {"about", source < sources.size() ? sources[source] : "something unknown"},
-                 {"dimension", claim_->dimension},
-                 {"strict", claim_->strict},
-                 {"unreferenced_vertices_count", claim_->points},
-                 {"least_distance", claim_->eta},
-                 {"ring", claim_->ring},
-                 {"merged_vertices", claim_->merged.size()},
-                 {"excluded_pairs_of_labels", claim_->excluded.size()},
-                 {"steps", committed_.steps},
-                 {"steps_with_a_witness_of_contact", committed_.witnesses},
-                 {"token_bytes", committed_.token_bytes},
-                 {"open_group", reader_.open_group().has_value()},
-                 {"bytes", std::filesystem::file_size(path_)}};
-    json["begin"] = committed_.steps > 0 ? Json(committed_.begin) : Json();
-    json["end"] = committed_.steps > 0 ? Json(committed_.end) : Json();
-    return json;
+    return {.motion = source < motions.size() ? motions[source] : "",
+            .dimension = claim_->dimension,
+            .strict = claim_->strict,
+            .points = claim_->points,
+            .distance = claim_->eta,
+            .ring = claim_->ring,
+            .merged = claim_->merged.size(),
+            .excluded = claim_->excluded.size(),
+            .steps = committed_.steps,
+            .contacts = committed_.witnesses,
+            .from = committed_.begin,
+            .to = committed_.end,
+            .token_bytes = committed_.token_bytes,
+            .bytes = std::filesystem::file_size(path_),
+            .open_group = reader_.open_group().has_value()};
   }
 
  private:
@@ -95,16 +104,20 @@ class Contents {
 
 }  // namespace
 
-bool is_proof(const std::filesystem::path& path) {
+bool is_proof(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;  // a look would consume the beginning of a pipe
+  if (!std::filesystem::is_regular_file(file, error)) return false;  // a look would consume the beginning of a pipe
   std::array<char, block_format::file_header_size> begin{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(begin.data(), begin.size())) return false;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(begin.data(), begin.size())) return false;
   return std::string_view(begin.data(), block_format::magic.size()) == block_format::magic &&
          get<FourLetters>(begin.data() + 12) == proof_content;
 }
 
-Json proof_info(const std::filesystem::path& path) { return Contents(path).json(); }
+ProofInfo inspect_proof(const std::filesystem::path& file, const std::atomic<bool>* stop,
+                        const std::function<void(double share)>& progress) {
+  const StopOfThread stop_of_thread(stop);
+  return Contents(file, progress).info();
+}
 
 }  // namespace noli

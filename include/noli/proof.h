@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs: what they claim, where they are written, and the separate programs that check them.
+// Proofs: what they claim, where they are written, what is in them, and the separate programs that check them.
 //
 //   noli::VerifyRequest request;                       // noli/verify.h
 //   request.frames = frames;
@@ -9,6 +9,7 @@
 //   const noli::CheckerVerdict verdict = noli::check_proof(
 //       {.proof = "p.noli", .trajectory = frames, .asked = noli::fields_of(outcome.claim)});
 //   if (verdict.code == 0) ...                         // accepted: nothing touches
+//   const noli::ProofInfo info = noli::inspect_proof("p.noli");  // what it is about, and its size; checks nothing
 //
 // Notation
 //   claim     a statement about a motion, field by field (proofs/FORMAT.md, section 6). Checkers decide which of two
@@ -16,7 +17,8 @@
 //   checker   a separate program: noli_check, or noli_check_verified, which is extracted from a proof in Coq
 //
 // Units: distances in the unit of the coordinates; times in steps of frames, in seconds of a run.
-// Errors: as each function says. Thread safety: any thread; two checks may run at once.
+// Errors: as each function says. Thread safety: any thread; any number of checks may run at once, each with its own
+// stop; nothing is printed.
 #pragma once
 
 #include <array>
@@ -87,6 +89,33 @@ std::vector<std::string> read_claim_file(const std::filesystem::path& file);
 /// For VerifyRequest::open_proof: creates the file of the proof. Throws std::system_error when it cannot be created or
 /// already exists.
 std::function<std::unique_ptr<Sink>(const Claim&)> proof_to_file(std::filesystem::path file);
+
+/// What a proof says of itself. Only a checker knows whether it is true.
+struct ProofInfo {
+  std::string motion;  ///< as in Claim; empty: of a kind that this version does not know
+  int dimension = 3;
+  bool strict = false;         ///< the vertex-disjoint features of one cell are compared too
+  bool points = false;         ///< vertices that no cell refers to are particles
+  double distance = 0;         ///< features are more than this apart, in the unit of the coordinates
+  std::uint32_t ring = 1;      ///< features fewer mesh edges apart may be nearer
+  std::uint64_t merged = 0;    ///< number of merged vertices
+  std::uint64_t excluded = 0;  ///< number of pairs of labels that are not compared
+  std::uint64_t steps = 0;     ///< that are committed, as all below
+  std::uint64_t contacts = 0;  ///< of these, steps with a witness of contact
+  double from = 0, to = 0;     ///< T0 of the first step, T1 of the last, as in Claim; 0 without steps
+  std::uint64_t token_bytes = 0;
+  std::uint64_t bytes = 0;  ///< of the file
+  bool open_group = false;  ///< the file ends in a part that was never committed: its writer was stopped
+};
+
+/// Whether the file begins like a proof. False if it cannot be read, and for a pipe.
+bool is_proof(const std::filesystem::path& file);
+
+/// Reads a proof, one block in memory at a time, and checks only that its blocks are whole. `stop` is polled; when it
+/// becomes true, Stopped is thrown. `progress` is called now and then with the share of the file that is read, in
+/// [0, 1]. Throws InputError when the file is damaged, or its blocks are not those of a proof; std::system_error.
+ProofInfo inspect_proof(const std::filesystem::path& file, const std::atomic<bool>* stop = nullptr,
+                        const std::function<void(double share)>& progress = {});
 
 enum class Checker { plain, verified };
 
