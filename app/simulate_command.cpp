@@ -14,7 +14,6 @@
 #include "app/process.h"
 #include "app/progress.h"
 #include "certify/runs/run_folder.h"
-#include "certify/simulate/reproduce_run.h"
 #include "report/simulate_report.h"
 
 namespace noli::app {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/simulate/reproduce_run.h"
+#include <noli/simulate.h>
 
 #include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <noli/errors.h>
 #include "certify/runs/run_log_facts.h"
@@ -15,6 +19,10 @@
 
 namespace noli {
 namespace {
+
+void tell(const ReproduceRequest& request, std::string_view work, double share) {
+  if (request.progress) request.progress(work, share);
+}
 
 /// A window of the run, and the state at its beginning.
 template <int Dim>
@@ -30,6 +38,7 @@ Found<Dim> find_window(const ReproduceRequest& request) {
   Found<Dim> found;
   while (auto window = reader.next_window()) {
     end_if_stopped();
+    tell(request, "read", static_cast<double>(window->index + 1) / static_cast<double>(request.window));
     if (window->index + 1 == request.window) {
       found.window = std::move(*window);
       found.halvings = reader.row().halvings;
@@ -46,8 +55,11 @@ template <int Dim>
 void run_window(integrator::Simulation<double, Dim>& simulation, integrator::Recording<double, Dim>& recording,
                 const ReproduceRequest& request) {
   integrator::Books<double, Dim> books;
+  const auto stop = [] { return stop_asked().has_value(); };
   try {
-    simulation.run_window(recording, books);
+    if (!stop() && simulation.run_window(recording, books, stop)) return;
+    throw Stopped(stop_asked().value_or(StopReason::interrupted),
+                  fmt::format("{}: window {}", request.run.string(), request.window));
   } catch (const integrator::ContactLimit& limit) {
     throw InputError(trajectory_path(request.run).string(), "",
                      fmt::format("window {}: integrated again, a pair needs more layers than allowed at {:.17g} s: the "
@@ -66,22 +78,26 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
   }
   auto simulation = simulation_at<Dim>(built.model, found.before, found.halvings);
   integrator::Recording<double, Dim> recording;
+  tell(request, "integrate", 0);
   run_window(simulation, recording, request);
+  tell(request, "integrate", 1);
   const WorldLines lines = integrator::world_lines<Dim>(recording, built.model.x.size());
   ReproduceOutcome outcome;
   outcome.breakpoints = recording.stream().size();
   outcome.expected = found.window.lines ? lines_hash(Dim, *found.window.lines) : found.window.lines_hash;
   outcome.found = lines_hash(Dim, lines);
   outcome.same = outcome.expected == outcome.found;
+  if (!request.output) return outcome;
   std::string block;
   put_lines_block(Dim, lines, [&block](std::string_view bytes) { block += bytes; });
-  replace_file(request.output, block);
+  replace_file(*request.output, block);
   return outcome;
 }
 
 }  // namespace
 
 ReproduceOutcome run_reproduce(const ReproduceRequest& request) {
+  const StopOfThread stop_of_thread(request.stop);
   const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(request.scene, form);
   return scene.dimension == 2 ? reproduce<2>(request, scene) : reproduce<3>(request, scene);

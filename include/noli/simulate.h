@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Simulates a scene: integrates window after window, verifies each exactly, and commits it to the run only if nothing
-// touches in it.
+// touches in it. Reproduces windows of a run.
 //
 //   noli::SimulateRequest request;
 //   request.scene = "scenes/swinging_cloth.json";
@@ -16,13 +16,15 @@
 //   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
 //
 // The bytes of trajectory.blocks depend only on the scene and the version: not on threads, interruptions or readers. An
-// interrupted run goes on with `resume`.
+// interrupted run goes on with `resume`, and run_reproduce makes the bytes of one window again. For all windows, and
+// to verify them again, use run_verify in noli/verify.h with `reproduce`.
 //
 // Units: SI; each field names its own.
 // Errors: as each function says. Thread safety: simulations may run at once in different folders; a second writer to
-// the same run is refused. Nothing is printed.
+// the same run is refused. Runs may be reproduced at once, also the same one. Nothing is printed.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -128,5 +130,29 @@ struct SimulateOutcome {
 /// InputError (scene), Stopped (while the scene or the run to resume is read), UsageError (the run exists, or does
 /// not), WriteError (the disk is too small for the run), std::system_error (disk), std::bad_alloc.
 SimulateOutcome run_simulate(const SimulateRequest& request);
+
+struct ReproduceRequest {
+  std::filesystem::path scene;
+  bool brief = false;                                ///< the scene's short form
+  std::filesystem::path run;                         ///< the run that has the window
+  std::uint64_t window = 1;                          ///< from 1
+  std::optional<std::filesystem::path> output = {};  ///< a file for the block LINE of the window (trajectory/FORMAT.md)
+  const std::atomic<bool>* stop = nullptr;           ///< polled; when it becomes true, Stopped is thrown
+  /// Called with what is done, and the share of it in [0, 1]: "read", the windows up to this one; then "integrate", at
+  /// its beginning and its end. It comes from the calling thread.
+  std::function<void(std::string_view work, double share)> progress = {};
+};
+
+struct ReproduceOutcome {
+  bool same = false;                        ///< the hash is that of the run
+  std::array<std::uint8_t, 32> expected{};  ///< SHA-256 of the block LINE of the run
+  std::array<std::uint8_t, 32> found{};     ///< of the one that was made again
+  std::uint64_t breakpoints = 0;            ///< of all vertices, the ends of the window included
+};
+
+/// Integrates one window of a run again, from the state at its beginning, and compares its world lines with the run's
+/// by their hash. A run that recorded only frames has this hash too. Throws InputError (the scene, the run, no such
+/// window), Stopped (`output` is then as it was), UsageError, std::system_error, std::bad_alloc.
+ReproduceOutcome run_reproduce(const ReproduceRequest& request);
 
 }  // namespace noli

@@ -14,6 +14,7 @@
 
 #include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
+#include "trajectory/blocks/sha256.h"
 #include "trajectory/text.h"
 
 namespace noli {
@@ -145,6 +146,75 @@ TEST_F(SimulateInProcess, ErrorsAreExceptions) {
   asked.scene = folder.write("none.json", "{}");
   asked.run = folder / "other";
   EXPECT_THROW(run_simulate(asked), InputError);
+}
+
+/// Each window of a run, whether it recorded world lines or only frames.
+TEST_F(SimulateInProcess, ReproducesWindows) {
+  for (const char* const record : {"full", "frames"}) {
+    SimulateRequest asked = request();
+    std::string scene = resting_bar;
+    scene.insert(scene.find("\"bodies\""), std::string("\"record\": \"") + record + "\", ");
+    asked.scene = folder.write("recorded.json", scene);
+    asked.run = folder / record;
+    ASSERT_EQ(run_simulate(asked).windows, 4U) << record;
+    const std::vector<std::string> files = folder.names();
+    for (std::uint64_t window = 1; window <= 4; ++window) {
+      const ReproduceOutcome outcome = run_reproduce({.scene = asked.scene, .run = asked.run, .window = window});
+      EXPECT_TRUE(outcome.same) << record << ' ' << window;
+      EXPECT_EQ(outcome.found, outcome.expected);
+      EXPECT_GE(outcome.breakpoints, 4U);
+    }
+    EXPECT_EQ(folder.names(), files);
+  }
+}
+
+TEST_F(SimulateInProcess, WritesTheBlockOfAReproducedWindow) {
+  const SimulateRequest asked = request();
+  run_simulate(asked);
+  const ReproduceOutcome outcome =
+      run_reproduce({.scene = asked.scene, .run = asked.run, .window = 2, .output = folder / "block"});
+  EXPECT_EQ(sha256(read_whole_file(folder / "block")), outcome.found);
+}
+
+TEST_F(SimulateInProcess, AnotherSceneIsNotReproduced) {
+  const SimulateRequest asked = request();
+  run_simulate(asked);
+  std::string falling = resting_bar;
+  falling.replace(falling.find("[0, 0]"), 6, "[0, -9]");
+  const ReproduceOutcome outcome =
+      run_reproduce({.scene = folder.write("falling.json", falling), .run = asked.run, .window = 1});
+  EXPECT_FALSE(outcome.same);
+  EXPECT_NE(outcome.found, outcome.expected);
+  EXPECT_THROW(run_reproduce({.scene = asked.scene, .run = asked.run, .window = 5}), InputError);
+  EXPECT_THROW(run_reproduce({.scene = asked.scene, .run = folder / "none", .window = 1}), InputError);
+}
+
+TEST_F(SimulateInProcess, ReproducingTellsItsProgress) {
+  const SimulateRequest asked = request();
+  run_simulate(asked);
+  std::vector<std::string> told;
+  run_reproduce(
+      {.scene = asked.scene, .run = asked.run, .window = 2, .progress = [&](std::string_view work, double share) {
+         told.push_back(std::string(work) + ' ' + std::to_string(share).substr(0, 3));
+       }});
+  EXPECT_EQ(told, (std::vector<std::string>{"read 0.5", "read 1.0", "integrate 0.0", "integrate 1.0"}));
+}
+
+TEST_F(SimulateInProcess, AStopOfItsOwnEndsReproducing) {
+  const SimulateRequest asked = request();
+  run_simulate(asked);
+  std::atomic<bool> stop = false;
+  ReproduceRequest again{
+      .scene = asked.scene, .run = asked.run, .window = 3, .output = folder / "block", .stop = &stop};
+  for (const std::string_view at : {"read", "integrate"}) {
+    stop = false;
+    again.progress = [&](std::string_view work, double) { stop = work == at; };
+    EXPECT_THROW(run_reproduce(again), Stopped) << at;
+    EXPECT_FALSE(std::filesystem::exists(folder / "block")) << at;
+  }
+  stop = false;
+  again.progress = nullptr;
+  EXPECT_TRUE(run_reproduce(again).same);
 }
 
 TEST_F(SimulateInProcess, AStopOfItsOwnEndsItAtTheLastWindow) {

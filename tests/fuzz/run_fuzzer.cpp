@@ -17,7 +17,6 @@
 #include <noli/verify.h>
 #include "certify/run_explanation.h"
 #include "certify/runs/run_info.h"
-#include "certify/simulate/reproduce_run.h"
 #include "check_frame.h"
 #include "report/figures/run_figure.h"
 #include "report/page/report_page.h"
