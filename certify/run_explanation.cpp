@@ -131,6 +131,9 @@ std::optional<double> RunExplanation::bound() const {
 
 RunExplanation explain_run(const std::filesystem::path& run) { return Explaining(run)(); }
 
-RunSummary summary_of_run(const std::filesystem::path& run) { return explain_run(run); }
+RunSummary summary_of_run(const std::filesystem::path& run, const std::atomic<bool>* stop) {
+  const StopOfThread stop_of_thread(stop);
+  return explain_run(run);
+}
 
 }  // namespace noli

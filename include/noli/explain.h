@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Summarises what happened in a run, from its files alone.
+// Predicts what a scene will do, and summarises what happened in a run, from its files alone.
+//
+//   const noli::ScenePrediction scene = noli::prediction_of_scene("scenes/swinging_cloth.json");
+//   std::printf("%g bytes\n", scene.bytes);
 //
 //   const noli::RunSummary run = noli::summary_of_run("run");
 //   if (run.gap) std::printf("nearest: %g m\n", run.gap->up_to);
@@ -12,11 +15,13 @@
 //                      if the run recorded its world lines
 //
 // Units: SI; each field names its own.
-// Errors: as summary_of_run says. Thread safety: any thread; the files are only read.
-// It verifies nothing: run_verify in noli/verify.h does.
+// Errors: as each function says. Thread safety: any thread; the files are only read, and nothing is printed.
+// Nothing is simulated or verified here: run_simulate in noli/simulate.h and run_verify in noli/verify.h do.
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -26,6 +31,60 @@
 #include <noli/run.h>
 
 namespace noli {
+
+/// A body of a scene.
+struct BodyPrediction {
+  std::string name;
+  std::size_t vertices = 0, faces = 0;
+  std::size_t edges = 0;                 ///< those without a face
+  double mass = 0;                       ///< [kg]
+  std::size_t pinned = 0, scripted = 0;  ///< vertices
+};
+
+/// Forces of a scene that fire together; if forces have clocks of their own, all of one kind.
+struct ForcesPrediction {
+  ForceKind kind{};
+  std::size_t forces = 0;
+  double shortest = 0, longest = 0;  ///< step [s]
+  double events = 0;                 ///< per second of simulated time
+};
+
+/// One material of contact, and the pairs of bodies that have it.
+struct ContactPrediction {
+  std::vector<std::array<std::string, 2>> pairs;
+  double thickness = 0;        ///< of the first layer [m]
+  double thickness_below = 0;  ///< what bounds it [m]; infinite if nothing does
+  double stiffness = 0;        ///< of the first layer [N/m]
+  double step = 0;             ///< of the first layer [s]
+  double restitution = 1;      ///< share of the energy of an approach that comes back
+  double friction = 0;         ///< Coulomb's coefficient
+};
+
+/// What a scene will do, computed from the positions at its start. Events of contact and the run time are not
+/// predicted.
+struct ScenePrediction {
+  std::string title;
+  int dimension = 3;
+  std::vector<BodyPrediction> bodies;
+  std::vector<ForcesPrediction> forces;
+  std::vector<ContactPrediction> contact;  ///< empty: a contact ends the run
+  std::vector<std::string> active;         ///< "8 membranes", "gravity", ...
+  std::vector<std::string> left_out;       ///< each with its reason: "scripts: the scene has none"
+  std::vector<std::string> defaults;       ///< fields that the scene leaves out: "/window = 0.01"
+  std::vector<std::string> warnings;       ///< also of resonance
+  std::vector<std::string> hints;          ///< what would make the run faster
+  std::string contact_at_start;       ///< what meets at the beginning, so that run_simulate refuses; empty: nothing
+  double windows = 0;                 ///< of the whole run
+  double events_per_second = 0;       ///< of simulated time
+  double breakpoints_per_second = 0;  ///< of simulated time
+  double bytes = 0;                   ///< of the whole run, without proofs
+};
+
+/// Nothing is simulated; whether the scene begins in contact is decided exactly. `brief`: the scene's short form.
+/// `stop` is polled; when it becomes true, Stopped is thrown. Throws InputError (the scene, a file that it names),
+/// Stopped, std::bad_alloc.
+ScenePrediction prediction_of_scene(const std::filesystem::path& scene, bool brief = false,
+                                    const std::atomic<bool>* stop = nullptr);
 
 /// A layer that acted, and in which window.
 struct ActingMoment {
@@ -75,7 +134,8 @@ struct RunSummary {
   std::vector<ActingMoment> worst;  ///< the windows with the deepest layers, deepest first; at most five
 };
 
-/// Throws InputError (no run, a damaged one, of an earlier version).
-RunSummary summary_of_run(const std::filesystem::path& run);
+/// `stop` is polled; when it becomes true, Stopped is thrown. Throws InputError (no run, a damaged one, of an earlier
+/// version), Stopped.
+RunSummary summary_of_run(const std::filesystem::path& run, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace noli
