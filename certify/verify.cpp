@@ -55,7 +55,10 @@ void VerifyWork::prepare_to_reproduce() {
   }
 }
 
-VerifyOutcome run_verify(const VerifyWork& work) { return work.run ? verify_run(work) : verify_frames(work); }
+VerifyOutcome run_verify(const VerifyWork& work) {
+  const StopOfThread stop_of_thread(work.stop);
+  return work.run ? verify_run(work) : verify_frames(work);
+}
 
 VerifyOutcome run_verify(const VerifyRequest& request) {
   VerifyWork work(request);

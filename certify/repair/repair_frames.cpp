@@ -487,6 +487,7 @@ const char* name(RepairEnd end) {
 }
 
 RepairOutcome run_repair(const RepairRequest& request) {
+  const StopOfThread stop_of_thread(request.stop);
   const Stopwatch watch;
   RepairRequest ordered = request;
   RepairOutcome outcome;

@@ -547,6 +547,7 @@ const char* name(RunEnd end) {
 }
 
 SimulateOutcome run_simulate(const SimulateRequest& request) {
+  const StopOfThread stop_of_thread(request.stop);
   const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(request.scene, form);
   return scene.dimension == 2 ? run_in<2>(request, scene) : run_in<3>(request, scene);

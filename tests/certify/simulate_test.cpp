@@ -217,6 +217,14 @@ TEST_F(SimulateInProcess, AStopOfItsOwnEndsReproducing) {
   EXPECT_TRUE(run_reproduce(again).same);
 }
 
+TEST_F(SimulateInProcess, AStopOfItsOwnWhileItReadsTheSceneLeavesNoFolder) {
+  const std::atomic<bool> stop = true;
+  SimulateRequest asked = request();
+  asked.stop = &stop;
+  EXPECT_THROW(run_simulate(asked), Stopped);
+  EXPECT_FALSE(std::filesystem::exists(asked.run));
+}
+
 TEST_F(SimulateInProcess, AStopOfItsOwnEndsItAtTheLastWindow) {
   std::atomic<bool> stop = false;
   SimulateRequest asked = request();

@@ -3,6 +3,8 @@
 // Verifies files of frames through the public interface: outcome, proof, progress, stops.
 #include <noli/verify.h>
 
+#include <sys/stat.h>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +19,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <noli/errors.h>
@@ -293,6 +296,22 @@ TEST_F(VerifyInProcess, TwoAtOnceHaveStopsOfTheirOwn) {
   auto other = std::async(std::launch::async, [&] { return run_verify(goes_on).verdict; });
   EXPECT_EQ(run_verify(stopped).verdict, Verdict::undecided);
   EXPECT_EQ(other.get(), Verdict::no_contact);
+}
+
+TEST_F(VerifyInProcess, AStopOfItsOwnEndsItsWaitForAPipe) {
+  VerifyRequest request = falling(1.5);
+  std::filesystem::remove(request.frames[0]);
+  ASSERT_EQ(::mkfifo(request.frames[0].c_str(), 0600), 0);
+  std::atomic<bool> stop = false;
+  request.stop = &stop;
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop = true;
+  });
+  const VerifyOutcome outcome = run_verify(request);
+  later.join();
+  EXPECT_EQ(outcome.verdict, Verdict::undecided);
+  EXPECT_TRUE(outcome.interrupted);
 }
 
 TEST_F(VerifyInProcess, BadInputIsAnException) {
