@@ -13,6 +13,7 @@
 #include "certify/result_file.h"
 #include "report/documents.h"
 #include "report/page/report_verdict.h"
+#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {

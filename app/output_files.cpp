@@ -24,11 +24,6 @@ bool one_file(const fs::path& a, const fs::path& b) {
   return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
 }
 
-bool is_regular_or_nothing(const fs::path& path) {
-  struct stat status = {};
-  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-}
-
 /// Whether standard output goes to this very file (a terminal or pipe may take both).
 bool is_standard_output(const fs::path& path) {
   struct stat file = {}, out = {};

@@ -10,62 +10,24 @@
 #include <system_error>
 
 #include <noli/errors.h>
+#include "trajectory/replaced_file.h"
+#include "trajectory/write_file.h"
 
 namespace noli {
 namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-/// A temporary file next to its target, removed unless it is renamed. Its name is short, so that it is not too long
-/// when the target's name is not.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& target)
-      : name_((target.parent_path() / ".noli-XXXXXX").string()), descriptor_(::mkstemp(name_.data())) {}
-  ~TemporaryFile() {
-    if (!is_open()) return;
-    ::close(descriptor_);
-    ::unlink(name_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  bool is_open() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
-
-  /// Gives it the owner and permissions of the file that it replaces, or the default permissions of a new file (with
-  /// mkstemp only the owner has access).
-  bool take_permissions_for(const std::string& target) const {
-    struct stat old = {};
-    if (::stat(target.c_str(), &old) != 0) {
-      const mode_t mask = ::umask(0);
-      ::umask(mask);
-      return ::fchmod(descriptor_, 0666 & ~mask) == 0;
-    }
-    const bool same_owner = old.st_uid == ::geteuid() && old.st_gid == ::getegid();
-    if (!same_owner && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0) return false;
-    return ::fchmod(descriptor_, old.st_mode & 0777) == 0;
-  }
-
-  bool move_to(const std::string& target) {
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed == 0 && ::rename(name_.c_str(), target.c_str()) == 0) return true;
-    const int error = errno;
-    ::unlink(name_.c_str());
-    errno = error;
+/// Whether the work throws no system error. Sets errno otherwise.
+template <class Work>
+bool succeeds(const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::system_error& error) {
+    errno = error.code().value();
     return false;
   }
-
- private:
-  std::string name_;
-  int descriptor_;
-};
-
-/// Devices and pipes are written as they are, files are replaced.
-bool is_replaced(const std::string& path) {
-  struct stat status = {};
-  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
 }
 
 /// The file that a chain of symbolic links leads to, so that replacing the file leaves the links.
@@ -85,7 +47,7 @@ bool can_write(const std::string& path) {
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return false;
   if (exists && ::access(path.c_str(), W_OK) != 0) return false;
-  if (!is_replaced(path) || TemporaryFile(link_target(path)).is_open()) return true;
+  if (!is_regular_or_nothing(path) || succeeds([&] { ReplacedFile{link_target(path)}; })) return true;
   return exists && must_be_kept(errno);
 }
 
@@ -95,14 +57,13 @@ bool can_write(const std::string& path) {
 bool can_make_files(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (descriptor >= 0) return ::close(descriptor) == 0;
-  return TemporaryFile(std::filesystem::path(folder) / "file").is_open();
+  return succeeds([&] { ReplacedFile{std::filesystem::path(folder) / "file"}; });
 }
 
-bool replace_file(const std::string& path, const std::string& text) {
-  const std::string target = link_target(path);
-  TemporaryFile file(target);
-  return file.is_open() && write_all(file.descriptor(), text) && file.take_permissions_for(target) &&
-         file.move_to(target);
+void replace(const std::string& path, const std::string& text) {
+  ReplacedFile file(link_target(path), {.keep_permissions = true, .durable = false});
+  file.write(text);
+  file.take_name();
 }
 
 /// Writes to a device, a pipe, or a file that must be kept.
@@ -114,21 +75,16 @@ bool write_in_place(const std::string& path, const std::string& text) {
 }
 
 bool is_written(const std::string& path, const std::string& text) {
-  if (!is_replaced(path)) return write_in_place(path, text);
-  if (replace_file(path, text)) return true;
+  if (!is_regular_or_nothing(path)) return write_in_place(path, text);
+  if (succeeds([&] { replace(path, text); })) return true;
   return must_be_kept(errno) && ::access(path.c_str(), F_OK) == 0 && write_in_place(path, text);
 }
 
 }  // namespace
 
-bool write_all(int descriptor, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  return true;
+bool is_regular_or_nothing(const std::filesystem::path& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
 }
 
 void write_result(const std::string& path, const std::string& text) {

@@ -16,8 +16,8 @@ void write_result(const std::string& path, const std::string& text);
 /// Where a path leads, with all symbolic links followed, also when there is no file at the end.
 std::filesystem::path place_of(std::filesystem::path path);
 
-/// Writes all of it to an open file. False, with errno, when that fails.
-bool write_all(int descriptor, const std::string& text);
+/// Whether a path leads to a regular file or to nothing. Anything else, such as a device or a pipe, is never replaced.
+bool is_regular_or_nothing(const std::filesystem::path& path);
 
 /// Throws UsageError, naming `option`, when the file cannot be written, whether it exists or not. Leaves nothing
 /// behind.

@@ -17,7 +17,6 @@
 #include "certify/decided_steps.h"
 #include "certify/groups.h"
 #include "certify/process/hdf5_frames.h"
-#include "certify/process/unfinished_file.h"
 #include "certify/proofs/prove_frames.h"
 #include "certify/proofs/trajectory_pipe.h"
 #include "certify/step_parts.h"
@@ -30,6 +29,7 @@
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
 #include "trajectory/merge.h"
+#include "trajectory/replaced_file.h"
 #include "trajectory/sample.h"
 #include "trajectory/stop.h"
 
@@ -62,19 +62,20 @@ void require_readable(const std::vector<std::filesystem::path>& paths) {
 class TrajectoryFile {
  public:
   TrajectoryFile(const std::filesystem::path& file, const Mesh& mesh)
-      : file_(file), writer_(std::make_unique<FileSink>(file_.path(), FileSink::Open::create), mesh) {}
+      : file_(file, {.name = ScratchName::random}),
+        writer_(std::make_unique<FileSink>(file_.path(), FileSink::Open::create), mesh) {}
 
   FramesWriter& writer() { return writer_; }
   /// Throws std::system_error.
   void finish() {
     writer_.finish();
-    file_.finish();
+    file_.take_name();
     finished_ = true;
   }
   bool finished() const { return finished_; }
 
  private:
-  UnfinishedFile file_;
+  ReplacedFile file_;
   FramesWriter writer_;
   bool finished_ = false;
 };

@@ -78,7 +78,7 @@ ProofRoute::ProofRoute(VerifyWork& request) : request_(request) {
   }
   can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
   file_ = request.proof;
-  if (file_ && request.decided) file_ = unfinished_.emplace(*file_).path();
+  if (file_ && request.decided) file_ = unfinished_.emplace(*file_, Replacing{.name = ScratchName::random}).path();
   // Steps that are decided already take less time than their checker, so several checkers share them out.
   const bool joined = request.decided && !pipe_ && request.threads != 1;
   const bool later = request.min_distance > 0 || request.follow || request.live;
@@ -121,7 +121,7 @@ void ProofRoute::check(VerifyOutcome& outcome) {
   check_proof_of(outcome);
   if (!unfinished_) return;
   const bool cut = outcome.verdict == Verdict::undecided && (outcome.interrupted || outcome.out_of_time);
-  if (!cut && fs::exists(unfinished_->path())) return unfinished_->finish();
+  if (!cut && fs::exists(unfinished_->path())) return unfinished_->take_name();
   outcome.proof_begun = false;
 }
 

@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "certify/process/scratch_folder.h"
-#include "certify/process/unfinished_file.h"
 #include "certify/proofs/checker.h"
 #include "certify/proofs/trajectory_pipe.h"
 #include "certify/verify_work.h"
+#include "trajectory/replaced_file.h"
 
 namespace noli {
 
@@ -55,7 +55,7 @@ class ProofRoute {
   VerifyWork& request_;
   bool can_check_ = false;
   std::optional<ScratchFolder> folder_;
-  std::optional<UnfinishedFile> unfinished_;
+  std::optional<ReplacedFile> unfinished_;
   std::optional<std::filesystem::path> file_;
   std::optional<TrajectoryPipe> pipe_;  ///< of a motion that is in no file which checkers read
   std::optional<CheckerProcess> checker_;

@@ -2,8 +2,11 @@
 #include "certify/runs/series_file.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -40,10 +43,25 @@ std::string advice(const std::filesystem::path& path, const std::string& why) {
       path.string(), why, path.has_parent_path() ? path.parent_path().string() : ".");
 }
 
+/// Removes a part file that a killed process left, and returns the path. The folder need not be trusted.
+const std::filesystem::path& without_part(const std::filesystem::path& path) {
+  const std::filesystem::path part = path.string() + ".part";
+  struct stat there = {};
+  const bool is_there = ::lstat(part.c_str(), &there) == 0;
+  if (is_there && !S_ISREG(there.st_mode)) {
+    throw InputError(part.string(), "",
+                     "is a link, or not a file; remove it, and pass --resume to write " + path.filename().string());
+  }
+  if ((!is_there || ::unlink(part.c_str()) != 0) && errno != ENOENT) {
+    throw std::system_error(errno, std::generic_category(), part.string());
+  }
+  return path;
+}
+
 }  // namespace
 
 SeriesFile::SeriesFile(const std::filesystem::path& path, const SeriesProgram& program)
-    : path_(path), part_(path), process_(program, part_.descriptor()) {
+    : path_(path), part_(without_part(path), {.name = ScratchName::part}), process_(program, part_.descriptor()) {
   std::string bytes;
   series::put_beginning(bytes);
   guarded([&] { process_.write(bytes); });

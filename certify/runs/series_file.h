@@ -15,9 +15,9 @@
 #include <span>
 #include <string>
 
-#include "certify/runs/part_file.h"
 #include "certify/runs/series_process.h"
 #include "certify/series/stream.h"
+#include "trajectory/replaced_file.h"
 
 namespace noli {
 
@@ -29,7 +29,8 @@ using SeriesShape = series::Shape;
 /// an error nothing may follow.
 class SeriesFile {
  public:
-  /// Also throws InputError, like PartFile.
+  /// First removes a part file that a killed process left. Throws InputError when that name is a link or a folder;
+  /// std::system_error, naming the file, when it cannot be created.
   explicit SeriesFile(const std::filesystem::path& path, const SeriesProgram& program);
 
   /// Adds an array; a name "energy/kinetic" is an array in a group. `unit` is SI, "1" for a pure number. Without a
@@ -64,7 +65,7 @@ class SeriesFile {
   void write(const Declared& array, std::uint64_t first, std::span<const T> values);
 
   std::filesystem::path path_;
-  PartFile part_;
+  ReplacedFile part_;
   SeriesProcess process_;
   std::map<std::string, Declared> arrays_;
 };

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include <noli/errors.h>
-#include "certify/process/unfinished_file.h"
 #include "certify/proofs/claim.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "trajectory/blocks/block_sink.h"
 #include "trajectory/blocks/sha256.h"
+#include "trajectory/replaced_file.h"
 
 namespace noli {
 namespace {
@@ -41,14 +41,14 @@ void copy_steps(const fs::path& proof, BlockWriter& to) {
 /// `rest` writes what comes behind the head.
 template <class Rest>
 void write(const fs::path& file, const Json& head, const Rest& rest) {
-  const UnfinishedFile part(file);
+  ReplacedFile part(file, {.name = ScratchName::random});
   {
     BlockWriter writer(std::make_unique<FileSink>(part.path(), FileSink::Open::create), content);
     writer.append(task_kind, head.dump());
     writer.commit();
     rest(writer);
   }
-  part.finish();
+  part.take_name();
 }
 
 std::uint64_t groups_of_steps(const std::optional<fs::path>& proof) {

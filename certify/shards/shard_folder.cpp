@@ -7,10 +7,10 @@
 
 #include <noli/errors.h>
 #include <noli/version.h>
-#include "certify/process/unfinished_file.h"
 #include "certify/shards/shard_file.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/input_file.h"
+#include "trajectory/replaced_file.h"
 #include "trajectory/write_file.h"
 
 namespace noli {
@@ -60,7 +60,7 @@ std::string read_request(const fs::path& file) {
 
 /// Writes the file, unless another process has done so meanwhile.
 void publish(const std::string& text, const fs::path& file) {
-  const UnfinishedFile part(file);
+  const ReplacedFile part(file, {.name = ScratchName::random});
   write_file(part.path(), text);
   std::error_code error;
   fs::create_hard_link(part.path(), file, error);

@@ -67,7 +67,7 @@ class Stopped : public std::runtime_error {
   struct Message {
     std::string all;
   };
-  Stopped(StopReason reason, const Message& words) : std::runtime_error(words.all), reason_(reason) {}
+  Stopped(StopReason reason, const Message& message) : std::runtime_error(message.all), reason_(reason) {}
 
  private:
   StopReason reason_;

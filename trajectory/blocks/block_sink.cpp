@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "trajectory/write_file.h"
+
 namespace noli {
 namespace {
 
@@ -48,13 +50,7 @@ void FileSink::check(bool succeeded) const {
   if (!succeeded) throw_errno(name_);
 }
 
-void FileSink::write(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-    check(count >= 0 || errno == EINTR);
-    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-}
+void FileSink::write(std::string_view bytes) { check(write_all(descriptor_, bytes)); }
 
 void FileSink::sync() {
   while (::fsync(descriptor_) != 0) check(errno == EINTR);
