@@ -23,7 +23,9 @@ ReplacedFile::ReplacedFile(std::filesystem::path target, Replacing how) : target
     return;
   }
   const bool numbered = how.name == ScratchName::numbered;
-  const mode_t mode = how.keep_permissions ? 0600 : 0666;  // nobody else reads it before it has the right ones
+  struct stat old = {};
+  // Until the scratch file has the permissions of the target, nobody else may read it.
+  const mode_t mode = how.keep_permissions && ::stat(target_.c_str(), &old) == 0 ? 0600 : 0666;
   for (std::uint64_t number = 0; file_ < 0; ++number) {
     path_ = numbered ? target_.parent_path() / fmt::format(".noli-{}", number)
                      : std::filesystem::path(target_.string() + ".part");
@@ -43,14 +45,10 @@ void ReplacedFile::write(std::string_view bytes) {
   if (!write_all(file_, bytes)) fail();
 }
 
-/// Gives it the owner and permissions of the target, or the default permissions of a new file.
+/// Gives it the owner and permissions of the target, if there is one.
 bool ReplacedFile::take_permissions() const {
   struct stat old = {};
-  if (::stat(target_.c_str(), &old) != 0) {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return ::fchmod(file_, 0666 & ~mask) == 0;
-  }
+  if (::stat(target_.c_str(), &old) != 0) return true;
   const bool same_owner = old.st_uid == ::geteuid() && old.st_gid == ::getegid();
   if (!same_owner && ::fchown(file_, old.st_uid, old.st_gid) != 0) return false;
   return ::fchmod(file_, old.st_mode & 0777) == 0;
