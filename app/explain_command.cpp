@@ -57,7 +57,7 @@ ExitCode run(const ExplainArguments& arguments) {
   const std::string met = contact_at_start(scene, &interrupted(), deadline);
   if (!met.empty())
     explanation.warnings.push_back("the scene begins in contact, and `noli simulate` will refuse it: " + met);
-  if (arguments.brief) note_missing_short_form(scene);
+  if (arguments.brief && !has_short_form(scene)) note_missing_short_form();
   report::Answer answer("explained", {{"title", explanation.title}, {"dimension", explanation.dimension}});
   answer.text = integrator::to_text(explanation);
   output.write("explain-scene", answer, integrator::to_json(explanation));

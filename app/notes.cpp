@@ -25,18 +25,13 @@ void tell_note(const std::string& note) {
              stderr);
 }
 
-void tell_notes(const integrator::Explanation& explanation) {
-  const std::vector<std::string> notes = integrator::notes(explanation);
+void tell_notes(const std::vector<std::string>& notes) {
   for (std::size_t i = 0; i < std::min(notes.size(), most_notes); ++i) tell_note(notes[i]);
   if (notes.size() <= most_notes) return;
   tell_note(fmt::format("`noli explain` lists {} more", notes.size() - most_notes));
 }
 
-void note_missing_short_form(const integrator::Scene& scene) {
-  const auto brief = scene.document.find("short");
-  if (brief != scene.document.end() && !brief->empty()) return;
-  tell_note("--short changes nothing: the scene has no \"short\"");
-}
+void note_missing_short_form() { tell_note("--short changes nothing: the scene has no \"short\""); }
 
 void note_if_being_written(const std::filesystem::path& run) {
   if (is_locked(run)) tell_note(run.string() + " is being written: this is about what is committed so far");

@@ -5,19 +5,18 @@
 
 #include <filesystem>
 #include <string>
-
-#include "integrator/scene/explain.h"
+#include <vector>
 
 namespace noli::app {
 
-/// What explain notes of the scene, so that whoever did not ask it knows too; of many the first few.
-void tell_notes(const integrator::Explanation& explanation);
+/// The notes of `noli explain` on the scene; if there are many, the first few.
+void tell_notes(const std::vector<std::string>& notes);
 
 /// A line of its own. `note`: without a full stop.
 void tell_note(const std::string& note);
 
-/// For --short: that it changes nothing, if the scene has no short form.
-void note_missing_short_form(const integrator::Scene& scene);
+/// For --short with a scene that has no short form.
+void note_missing_short_form();
 
 /// Tells whoever reads the run, on standard error, when another process writes to it.
 void note_if_being_written(const std::filesystem::path& run);

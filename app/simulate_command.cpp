@@ -87,12 +87,11 @@ ExitCode run(SimulateArguments& arguments) {
   inputs.push_back(request.run);
   const Output output(arguments.results, inputs);
   request.force = arguments.results.force;
-  request.begun = [&arguments, &request](const integrator::Scene& scene, const integrator::Explanation& explanation,
-                                         const std::string& space) {
+  request.begins = [&arguments, &request](const SimulateStart& start) {
     if (arguments.results.quiet) return;
-    if (request.brief) note_missing_short_form(scene);
-    tell_notes(explanation);
-    tell_note(space);
+    if (request.brief && !start.has_short_form) note_missing_short_form();
+    tell_notes(start.notes);
+    tell_note(start.space);
   };
   request.stop = &interrupted();
   request.stops = interruptions;

@@ -48,7 +48,7 @@ std::vector<integrator::Scene> scenes_of(const IntegratorArguments& arguments) {
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   for (const fs::path& file : arguments.scenes) {
     scenes.push_back(integrator::read_scene(file, form));
-    if (arguments.brief) note_missing_short_form(scenes.back());
+    if (arguments.brief && !has_short_form(scenes.back())) note_missing_short_form();
   }
   if (!scenes.empty()) return scenes;
   for (const std::string& text : audit::integrator_scenes()) {

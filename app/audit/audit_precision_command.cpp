@@ -78,7 +78,7 @@ ExitCode run(PrecisionArguments& arguments) {
   const Output output(arguments.results, {arguments.scene}, outputs("--svg", arguments.svg));
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);
-  if (arguments.brief) note_missing_short_form(scene);
+  if (arguments.brief && !has_short_form(scene)) note_missing_short_form();
   SimulateRequest extent;
   extent.scene = arguments.scene;
   extent.until = arguments.until;

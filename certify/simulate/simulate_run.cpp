@@ -93,7 +93,7 @@ class CertifiedRun {
     const integrator::Explanation explanation = integrator::explain(scene);
     const std::string space = require_space(scene, explanation);
     open(scene);
-    if (request.begun) request.begun(scene, explanation, space);
+    if (request.begins) request.begins({has_short_form(scene), notes(explanation), space});
   }
 
   SimulateOutcome operator()() {

@@ -41,10 +41,12 @@
 
 namespace noli {
 
-namespace integrator {
-struct Scene;
-struct Explanation;
-}  // namespace integrator
+/// What a user should know before a run.
+struct SimulateStart {
+  bool has_short_form = false;     ///< of the scene: without it, `brief` changes nothing
+  std::vector<std::string> notes;  ///< of the scene, a line each: warnings, then resonances
+  std::string space;               ///< how many bytes the run is about to write
+};
 
 struct SimulateRequest {
   std::filesystem::path scene;
@@ -65,10 +67,8 @@ struct SimulateRequest {
   std::function<bool(const SeriesRow&)> keep_going;
   /// Called with what is done, and the share of it in [0, 1]: "simulate", then "series.h5". Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
-
-  /// For `noli simulate` itself. Called once all checks have passed, before anything is integrated. The text says how
-  /// many bytes the run is about to write.
-  std::function<void(const integrator::Scene&, const integrator::Explanation&, const std::string& space)> begun;
+  /// Called once all checks have passed, before anything is integrated.
+  std::function<void(const SimulateStart& start)> begins;
 };
 
 enum class RunEnd {

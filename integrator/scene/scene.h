@@ -283,6 +283,12 @@ struct Scene {
   std::vector<DefaultTaken> defaults;
 };
 
+/// Whether the scene is shorter in its short form.
+inline bool has_short_form(const Scene& scene) {
+  const auto brief = scene.document.find("short");
+  return brief != scene.document.end() && !brief->empty();
+}
+
 /// How many windows reach up to a time. If the time is a whole number of windows up to rounding, such as 0.07 with
 /// windows of 0.01, it is exactly that number.
 inline double windows_up_to(double time, double window) { return std::ceil(time / window * (1 - 0x1p-50)); }

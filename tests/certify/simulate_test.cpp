@@ -122,6 +122,27 @@ TEST_F(SimulateInProcess, TellsItsProgress) {
   }
 }
 
+TEST_F(SimulateInProcess, TellsOfTheSceneBeforeItBegins) {
+  SimulateRequest asked = request();
+  bool began = false;
+  std::vector<SimulateStart> starts;
+  asked.begins = [&](const SimulateStart& start) {
+    EXPECT_FALSE(began);
+    starts.push_back(start);
+  };
+  asked.keep_going = [&](const SeriesRow&) { return began = true; };
+  run_simulate(asked);
+  asked.scene = folder.write("short.json", std::string(resting_bar).insert(1, R"("short": {"duration": 0.02}, )"));
+  asked.run = folder / "short";
+  began = false;
+  run_simulate(asked);
+  ASSERT_EQ(starts.size(), 2U);
+  EXPECT_FALSE(starts[0].has_short_form);
+  EXPECT_TRUE(starts[1].has_short_form);
+  EXPECT_EQ(starts[0].notes, std::vector<std::string>());
+  EXPECT_NE(starts[0].space, "");
+}
+
 TEST_F(SimulateInProcess, VerifyingARunTellsItsProgress) {
   SimulateRequest asked = request();
   run_simulate(asked);
