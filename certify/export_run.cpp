@@ -20,8 +20,7 @@ namespace {
 
 /// Before the first frame, so that earlier files of the pattern stay.
 void end_if_asked(const ExportRequest& request) {
-  if (request.stop == nullptr || !request.stop->load(std::memory_order_relaxed)) return;
-  throw Stopped(StopReason::interrupted, request.run.string());
+  if (const auto reason = stop_asked()) throw Stopped(*reason, request.run.string());
 }
 
 class Export {

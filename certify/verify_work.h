@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A request of `noli verify` with what its parts tell each other: steps that shards decide or have decided, and the
+// A request of `noli verify` with what Noli's own parts add: steps that shards decide or have decided, and the
 // pipe to a checker.
 #pragma once
 
@@ -45,7 +45,7 @@ struct VerifyWork : VerifyRequest {
   void prepare_to_reproduce();
 };
 
-/// As for a VerifyRequest, which is prepared here. Precondition: `work` is prepared.
+/// As run_verify(const VerifyRequest&), without prepare_to_reproduce(). Precondition: that was called, if `reproduce`.
 VerifyOutcome run_verify(const VerifyWork& work);
 
 }  // namespace noli

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <random>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +18,9 @@
 namespace noli {
 
 ReplacedFile::ReplacedFile(std::filesystem::path target, Replacing how) : target_(std::move(target)), how_(how) {
+  if ((how.name == ScratchName::random && how.keep_permissions) || (how.name == ScratchName::part && !how.durable)) {
+    throw std::logic_error("a file is replaced in a way that is not offered");
+  }
   if (how.name == ScratchName::random) {
     std::random_device random;
     path_ = target_.string() + fmt::format(".{:08x}{:08x}.part", random(), random());

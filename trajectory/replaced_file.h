@@ -13,12 +13,12 @@ namespace noli {
 enum class ScratchName : std::uint8_t {
   numbered,  ///< ".noli-0", or the next free number: short, so that it is not too long when the target's name is not
   part,      ///< "NAME.part". Only the file that was created takes the target's name or is removed. Must be durable
-  random     ///< "NAME.", 16 random digits, ".part". The caller creates this file, or does not
+  random     ///< "NAME.", 16 random digits, ".part". The caller creates this file and syncs it
 };
 
 struct Replacing {
   ScratchName name = ScratchName::numbered;
-  bool keep_permissions = false;  ///< owner and permissions of the target, if there is one
+  bool keep_permissions = false;  ///< owner and permissions of the target, if there is one; not with a random name
   bool durable = true;            ///< syncs, so that a loss of power leaves either the old or the new file
 };
 

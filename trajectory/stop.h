@@ -38,7 +38,7 @@ inline void forget_stops() noexcept { stop_detail::asked.store(0, std::memory_or
 class StopOfThread {
  public:
   explicit StopOfThread(const std::atomic<bool>& stop) noexcept : StopOfThread(&stop) {}
-  /// The same; nullptr: what the thread heard before goes on.
+  /// The same; nullptr changes nothing.
   explicit StopOfThread(const std::atomic<bool>* stop) noexcept
       : outer_(std::exchange(stop_detail::of_thread, stop != nullptr ? stop : stop_detail::of_thread)) {}
   ~StopOfThread() { stop_detail::of_thread = outer_; }

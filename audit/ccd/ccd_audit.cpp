@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 /// The queries of a file with the first time of each that is in contact, rounded down: a double is later than the exact
 /// time just when it is greater than that.
-struct LabelledQueries {
+struct QueriesWithTruth {
   int kind = 0;
   std::vector<AskedQuery> queries;
   std::vector<std::optional<double>> truth;
@@ -31,38 +31,38 @@ QueryKind kind_of(const fs::path& path) {
 }
 
 /// Nothing when the user would not wait for it.
-std::optional<LabelledQueries> prepare(AuditedFile& file, const AuditRequest& request) {
+std::optional<QueriesWithTruth> prepare(AuditedFile& file, const AuditRequest& request) {
   const std::vector<QueryRecord> records = read_query_csv(file.path, file.kind);
   const bool edges = file.kind == QueryKind::edge_edge;
   const FeaturePair pair = edges ? FeaturePair::edge_edge : FeaturePair::vertex_face;
-  LabelledQueries labelled{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
+  QueriesWithTruth known{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
   file.queries = records.size();
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (request.host.stopped()) return std::nullopt;
     const QueryRecord& record = records[i];
-    labelled.queries.push_back(asked(record));
+    known.queries.push_back(asked(record));
     const auto exact = exact_contact({pair, 3, record.x_t0, record.x_t1});
     const bool contact = exact.has_value();
-    labelled.truth.push_back(contact ? std::optional(exact->time) : std::nullopt);
+    known.truth.push_back(contact ? std::optional(exact->time) : std::nullopt);
     file.contacts += contact ? 1 : 0;
     file.labelled += record.label ? 1 : 0;
     if (record.label && *record.label != contact) file.wrong_labels.push_back(i + 1);
   }
-  return labelled;
+  return known;
 }
 
 /// Compares the answers to one file with the truth.
 class AnswerComparison {
  public:
-  AnswerComparison(const LabelledQueries& labelled, const LibraryAnswers& answers, std::size_t max_reports)
-      : labelled_(labelled), answers_(answers), max_reports_(max_reports) {}
+  AnswerComparison(const QueriesWithTruth& known, const LibraryAnswers& answers, std::size_t max_reports)
+      : known_(known), answers_(answers), max_reports_(max_reports) {}
 
   FileAudit run() {
-    counts_.queries = labelled_.queries.size();
+    counts_.queries = known_.queries.size();
     knows_times_ = std::any_of(answers_.answers.begin(), answers_.answers.end(), [](const GivenAnswer& answer) {
       return answer.state == AnswerState::answered && answer.code == NOLI_CCD_HIT && !std::isnan(answer.time);
     });
-    for (std::size_t i = 0; i < labelled_.queries.size(); ++i) mark(i);
+    for (std::size_t i = 0; i < known_.queries.size(); ++i) mark(i);
     counts_.crashes = answers_.crashes;
     counts_.hangs = answers_.hangs;
     counts_.memory = answers_.memory;
@@ -104,7 +104,7 @@ class AnswerComparison {
   }
 
   void mark_answer(std::size_t i, bool hit, double time) {
-    const std::optional<double>& truth = labelled_.truth[i];
+    const std::optional<double>& truth = known_.truth[i];
     if (hit && truth) return mark_time(i, time, *truth);
     if (hit) {
       ++counts_.false_positives;
@@ -134,7 +134,7 @@ class AnswerComparison {
     }
   }
 
-  const LabelledQueries& labelled_;
+  const QueriesWithTruth& known_;
   const LibraryAnswers& answers_;
   std::size_t max_reports_;
   std::vector<AuditFinding> late_;  ///< reported where others leave room
@@ -164,19 +164,19 @@ class Audit {
  private:
   /// All libraries on one file, so that their times are of the same minute.
   void examine(std::size_t file) {
-    const auto labelled = prepare(outcome_.files[file], request_);
-    if (!labelled) return end_it();
-    const LibraryAnswers unit = ask_library(std::nullopt, labelled->kind, labelled->queries, 0, request_.host);
+    const auto known = prepare(outcome_.files[file], request_);
+    if (!known) return end_it();
+    const LibraryAnswers unit = ask_library(std::nullopt, known->kind, known->queries, 0, request_.host);
     if (!unit.complete) return end_it();
     outcome_.files[file].unit_ns = unit.ns_per_query;
     for (LibraryAudit& audit : outcome_.audits) {
       const LibraryAnswers answers =
-          ask_library(audit.plugin, labelled->kind, labelled->queries, audit.tolerance, request_.host);
-      FileAudit compared = AnswerComparison(*labelled, answers, request_.max_reports).run();
+          ask_library(audit.plugin, known->kind, known->queries, audit.tolerance, request_.host);
+      FileAudit compared = AnswerComparison(*known, answers, request_.max_reports).run();
       compared.file = file;
       audit.description = answers.description;
       if (!answers.said.empty()) audit.said = answers.said;
-      compared.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(labelled->queries.size());
+      compared.counts.unit_seconds = unit.ns_per_query * 1e-9 * static_cast<double>(known->queries.size());
       outcome_.complete = outcome_.complete && compared.complete;
       audit.files.push_back(std::move(compared));
       ++done_;

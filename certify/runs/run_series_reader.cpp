@@ -143,6 +143,7 @@ void check_steps(const StepHistogram& steps, const RunWindow& window, const RunS
 }
 
 // --- Rows and anchors ------------------------------------------------------------------------------------------------
+
 /// `before`: the row of the previous window, or null for the first.
 void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& scene, const SeriesRow* before) {
   check_times(row, window, scene);
@@ -152,7 +153,7 @@ void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& sc
   check_steps(row.steps, window, scene);
 }
 
-/// The same for the anchors of friction at the window's end.
+/// Checks the anchors of friction at the window's end.
 void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window,
                    const RunScene& scene) {
   for (const auto& anchor : anchors) {

@@ -43,7 +43,7 @@ std::string advice(const std::filesystem::path& path, const std::string& why) {
       path.string(), why, path.has_parent_path() ? path.parent_path().string() : ".");
 }
 
-/// Removes a part file that a killed process left, and returns the path. The folder need not be trusted.
+/// Removes a part file that a killed process left, and returns the path.
 const std::filesystem::path& without_part(const std::filesystem::path& path) {
   const std::filesystem::path part = path.string() + ".part";
   struct stat there = {};

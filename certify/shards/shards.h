@@ -3,7 +3,7 @@
 // Verifies frames or a run in parts, by processes that share nothing but a folder, and joins what they found.
 //
 //   noli::verify_shard(request, {.folder = "shards", .number = 3, .of = 64});      // in each of 64 processes
-//   noli::VerifyWork whole = noli::request_of_shards("shards");                 // in one, when all are done
+//   noli::VerifyWork whole = noli::request_of_shards("shards");                    // in one, when all are done
 //   whole.open_proof = noli::proof_to_file("all.noli");
 //   const noli::VerifyOutcome outcome = noli::run_verify(whole);                   // decides nothing again
 //

@@ -36,7 +36,7 @@ template <int Dim>
 Found<Dim> find_window(const ReproduceRequest& request) {
   SeriesReader reader = open_run(request.run);
   Found<Dim> found;
-  while (auto window = reader.next_window()) {
+  while (auto window = request.window > 0 ? reader.next_window() : std::nullopt) {
     end_if_stopped();
     tell(request, "read", static_cast<double>(window->index + 1) / static_cast<double>(request.window));
     if (window->index + 1 == request.window) {

@@ -11,7 +11,7 @@
 namespace noli {
 
 ScenePrediction prediction_of_scene(const std::filesystem::path& scene, bool brief, const std::atomic<bool>* stop) {
-  const StopOfThread stop_of_thread(stop);
+  const StopOfThread hears(stop);
   const auto form = brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene read = integrator::read_scene(scene, form);
   const integrator::Explanation explanation = integrator::explain(read);
@@ -21,7 +21,7 @@ ScenePrediction prediction_of_scene(const std::filesystem::path& scene, bool bri
   prediction.active = explanation.active;
   prediction.warnings = integrator::notes(explanation);
   prediction.hints = explanation.hints;
-  prediction.contact_at_start = contact_at_start(read, stop, {});
+  prediction.contact_at_start = contact_at_start(read, stop_of_thread(), {});
   prediction.windows = explanation.windows;
   prediction.events_per_second = explanation.events;
   prediction.breakpoints_per_second = explanation.breakpoints;

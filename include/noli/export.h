@@ -47,9 +47,9 @@ struct ExportOutcome {
 };
 
 /// Writes the frames, one in memory at a time. If the run recorded only frames, it writes those and ignores fps. At the
-/// end the only files of that pattern are those just written. A stop before the first frame throws Stopped: nothing is
-/// written or removed. Throws InputError (no run, a damaged one), Stopped, UsageError (pattern; a place that cannot be
-/// written to; existing files of that pattern without `force`), std::system_error (disk).
+/// end the only files of that pattern are those just written. A stop before the first frame throws Stopped: no file
+/// is written or removed. Throws InputError (no run, a damaged one), Stopped, UsageError (pattern; a place that cannot
+/// be written to; existing files of that pattern without `force`), std::system_error (disk).
 ExportOutcome run_export(const ExportRequest& request);
 
 }  // namespace noli

@@ -100,7 +100,7 @@ struct ProofInfo {
   std::uint32_t ring = 1;      ///< features fewer mesh edges apart may be nearer
   std::uint64_t merged = 0;    ///< number of merged vertices
   std::uint64_t excluded = 0;  ///< number of pairs of labels that are not compared
-  std::uint64_t steps = 0;     ///< that are committed, as all below
+  std::uint64_t steps = 0;     ///< committed; `contacts`, `from`, `to` and `token_bytes` are about these
   std::uint64_t contacts = 0;  ///< of these, steps with a witness of contact
   double from = 0, to = 0;     ///< T0 of the first step, T1 of the last, as in Claim; 0 without steps
   std::uint64_t token_bytes = 0;

@@ -157,8 +157,8 @@ struct RepairOutcome {
   double seconds = 0;  ///< wall clock
 };
 
-/// Throws InputError, UsageError (the pattern; the folder of the run; options that do not go together), WriteError and
-/// std::system_error (the disk), std::bad_alloc.
+/// Throws InputError, Stopped (a stop while the frames are opened), UsageError (the pattern; the folder of the run;
+/// options that do not go together), WriteError and std::system_error (the disk), std::bad_alloc.
 RepairOutcome run_repair(const RepairRequest& request);
 
 }  // namespace noli

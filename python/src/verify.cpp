@@ -16,6 +16,7 @@
 #include "certify/process/hdf5_frames.h"
 #include "certify/proofs/claim.h"
 #include "certify/proofs/proof_route.h"
+#include "certify/verify_work.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/bindings.h"

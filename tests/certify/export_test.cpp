@@ -15,6 +15,7 @@
 
 #include <noli/errors.h>
 #include "tests/support/temporary_folder.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
@@ -85,6 +86,10 @@ TEST_F(ExportInProcess, AStopBeforeTheFirstFrameLeavesEarlierFiles) {
   const std::atomic<bool> stop = true;
   asked.stop = &stop;
   asked.force = true;
+  EXPECT_THROW(run_export(asked), Stopped);
+  EXPECT_EQ(files(), frames);
+  asked.stop = nullptr;
+  const StopOfThread from_outside(stop);
   EXPECT_THROW(run_export(asked), Stopped);
   EXPECT_EQ(files(), frames);
 }

@@ -32,7 +32,7 @@ class Reference {
   std::set<std::pair<double, std::size_t>> queue_;
 };
 
-std::vector<Calendar::EventData> said_of(std::size_t count) {
+std::vector<Calendar::EventData> data_of(std::size_t count) {
   std::vector<Calendar::EventData> data;
   for (std::size_t i = 0; i < count; ++i) {
     data.push_back({static_cast<std::uint16_t>(i % 3), static_cast<std::uint16_t>(i % 7)});
@@ -41,7 +41,7 @@ std::vector<Calendar::EventData> said_of(std::size_t count) {
 }
 
 void expect_order(const std::vector<double>& steps, double now, int events) {
-  Calendar calendar(steps, said_of(steps.size()), now);
+  Calendar calendar(steps, data_of(steps.size()), now);
   Reference reference(steps, now);
   for (int i = 0; i < events; ++i) {
     const auto [time, event] = reference.take();

@@ -6,9 +6,9 @@
     slow_check.py PROOF trajectory.blocks     a run
 
 It was written from proofs/FORMAT.md and trajectory/FORMAT.md and from nothing else, so that a mistake of the other checkers is not
-made here too. slow_files.py reads the files, and a test compares TokenCode with FORMAT.md; what a claim asks, and whether a proof answers
-it, is here. Numbers are int and Fraction; each rule is spelled out where it is asked for. Exit codes and first words are those of
-FORMAT.md, section 7.
+made here too. slow_files.py reads the files. The codes of tokens are TokenCode of proof_bytes.py, which
+tests/repository/token_codes_test.cpp compares with FORMAT.md. What a claim asks, and whether a proof answers it, is here. Numbers
+are int and Fraction; each rule is spelled out where it is asked for. Exit codes and first words are those of FORMAT.md, section 7.
 
 What this does not do: it holds everything in memory and is no good for anything large. Where those pages leave something
 open, there is a comment that begins with OPEN.

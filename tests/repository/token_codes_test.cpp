@@ -2,7 +2,8 @@
 //
 // Checks that the codes of tokens are those of the table in proofs/FORMAT.md, section 4.
 //
-// Prover, checker and tests in Python may not share an enum, so each has a TokenCode. All are compared as text. A row
+// Prover, checker and tests in Python may not share an enum, so each has a TokenCode. All are compared as text, except
+// proofs/coq/driver/main.ml, which has the bytes themselves. A row
 // of the table with several codes, which have to be consecutive, is two entries: NAME, and last_NAME for its last code.
 #include <gtest/gtest.h>
 

@@ -123,9 +123,9 @@ TEST(Vtk, SaysWhatIsWrong) {
 /// What is announced and not there is not allocated.
 TEST(Vtk, BelievesNoLength) {
   const std::string good = grid("0 1 2", "3", "5");
-  const auto with = [&](const std::string& base64, const std::string& head = "") {
+  const auto with = [&](const std::string& base64, const std::string& header = "") {
     std::string text = replaced(good, "format=\"ascii\">3<", "format=\"binary\">" + base64 + "<");
-    if (!head.empty()) text = replaced(text, "byte_order", head + " byte_order");
+    if (!header.empty()) text = replaced(text, "byte_order", header + " byte_order");
     return input_error([&] { parse_vtk(text, "a.vtu"); });
   };
   const std::string where = "a.vtu: DataArray 'offsets': ";

@@ -21,7 +21,7 @@
 
 namespace noli {
 
-/// The part of a cell that does not depend on positions: the numbers of its vertices and its own, and its features.
+/// What is known of a cell without positions: its number, its vertices and its features.
 struct CellIndices {
   std::array<VertexId, 3> vertices;  ///< as `corners` in trajectory/cell_features.h
   std::uint32_t cell;
