@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Integers of any size, as values: GMP's mpz_t with a destructor and plain operators, so that the templates of
-// formula.h take them like any other number. Temporaries are reused, as most of the time goes into allocation.
+// kernel/formula.h take them like any other number. Temporaries are reused, as most of the time goes into allocation.
 //
 // When memory runs out, GMP ends the program unless mp_set_memory_functions says otherwise.
 #pragma once

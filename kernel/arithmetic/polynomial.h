@@ -5,7 +5,7 @@
 // Notation
 //   p = c[0] + c[1] t + ... + c[n] t^n, c[n] != 0; the zero polynomial has degree -1
 //   content           the greatest common divisor of the coefficients; a polynomial of content 1 is primitive
-//   form              the homogeneous form of formula.h on s + t = 1
+//   form              the homogeneous form of kernel/formula.h on s + t = 1
 //
 // Everything is quadratic in n, so it is not meant for high degrees. Roots are in kernel/arithmetic/algebraic.h.
 #pragma once

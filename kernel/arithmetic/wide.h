@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Signed integers of a fixed number of 64-bit limbs, without allocation. Products widen, so they are exact. Sums keep
-// the width of the wider operand, and the caller must leave enough bits free (contact.cpp counts them).
+// the width of the wider operand, and the caller must leave enough bits free (kernel/contact.cpp counts them).
 //
 // Overflow is not checked at run time.
 #pragma once

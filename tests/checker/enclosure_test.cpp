@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests that vertices which enclosure.h finds apart are apart in exact arithmetic, for random paths that come within a
-// few units of the error bounds, at all scales of positions and times.
+// Tests that vertices which proofs/checker/enclosure.h finds apart are apart in exact arithmetic, for random paths that
+// come within a few units of the error bounds, at all scales of positions and times.
 #include <random>
 
 #include "support.h"

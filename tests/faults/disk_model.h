@@ -32,7 +32,7 @@ struct DiskAction {
   std::string bytes;
 };
 
-/// Throws std::runtime_error if the record does not follow the format in record.cpp.
+/// Throws std::runtime_error if the record does not follow the format in preload/record.cpp.
 std::vector<DiskAction> read_actions(std::string_view record);
 
 /// The state of a disk after some of a program's actions.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records a program's actions on the files of one folder, in order. disk_model.h derives from them what a loss of power
-// may leave. This is a library for LD_PRELOAD.
+// Records a program's actions on the files of one folder, in order. tests/faults/disk_model.h derives from them what a
+// loss of power may leave. This is a library for LD_PRELOAD.
 //
 // Environment
 //   NOLI_RECORD         the file that records are appended to
