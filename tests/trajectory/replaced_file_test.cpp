@@ -9,6 +9,7 @@
 
 #include <array>
 #include <regex>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -36,6 +37,27 @@ std::string system_error_of(const F& f) {
 std::string failure_to_take(ReplacedFile& file) {
   return system_error_of([&] { file.take_name(); });
 }
+
+/// While it exists, root is a user without rights, who owns the folder. Changes nothing for other users.
+class AsNobody {
+ public:
+  explicit AsNobody(const fs::path& folder) {
+    if (!was_root_) return;
+    EXPECT_EQ(::chown(folder.c_str(), nobody, static_cast<gid_t>(-1)), 0);
+    EXPECT_EQ(::seteuid(nobody), 0);
+  }
+  ~AsNobody() {
+    if (was_root_) {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  static constexpr uid_t nobody = 65534;
+  const bool was_root_ = ::geteuid() == 0;
+};
 
 class ReplacedFiles : public ::testing::Test {
  protected:
@@ -216,12 +238,22 @@ TEST_F(ReplacedFiles, KeepTheOwnerWhereThatIsAsked) {
 }
 
 TEST_F(ReplacedFiles, ThatAreDurableSyncTheirFolder) {
-  if (::geteuid() == 0) GTEST_SKIP() << "skipped: root may read all folders";
   fs::permissions(folder.path(), fs::perms(0300));
-  EXPECT_NE(system_error_of([&] { replace("a", numbered); }), "");
-  EXPECT_EQ(system_error_of([&] { replace("b", unsynced); }), "");
+  {
+    const AsNobody as_nobody(folder.path());  // root may read all folders
+    EXPECT_NE(system_error_of([&] { replace("a", numbered); }), "");
+    EXPECT_EQ(system_error_of([&] { replace("b", unsynced); }), "");
+  }
   fs::permissions(folder.path(), fs::perms(0700));
   EXPECT_EQ(folder.names(), (Names{"a", "b"}));
+}
+
+TEST_F(ReplacedFiles, ThatAreNotOfferedAreRefused) {
+  const Replacing of_random_name{.name = ScratchName::random, .keep_permissions = true};
+  EXPECT_THROW(ReplacedFile(folder / "a", of_random_name), std::logic_error);
+  const Replacing unsynced_part{.name = ScratchName::part, .durable = false};
+  EXPECT_THROW(ReplacedFile(folder / "a", unsynced_part), std::logic_error);
+  EXPECT_EQ(folder.names(), Names());
 }
 
 }  // namespace
