@@ -39,14 +39,14 @@ BodyFrames obstacle(const std::string& word) {
 
 }  // namespace
 
-void add_body_options(CLI::App& command, BodyArguments& words, CLI::Option* frames) {
+void add_body_options(CLI::App& command, BodyArguments& arguments, CLI::Option* frames) {
   CLI::Option* const body =
-      command.add_option("--body", words.bodies, "A body and its files, once for each body; joined into one mesh")
+      command.add_option("--body", arguments.bodies, "A body and its files, once for each body; joined into one mesh")
           ->allow_extra_args(false)
           ->type_name("NAME=FRAMES")
           ->group(group::question);
   CLI::Option* const still =
-      command.add_option("--obstacle", words.obstacles, "A body that stands still, with --body: one file")
+      command.add_option("--obstacle", arguments.obstacles, "A body that stands still, with --body: one file")
           ->allow_extra_args(false)
           ->needs(body)
           ->type_name("[NAME=]FRAME")
@@ -56,10 +56,10 @@ void add_body_options(CLI::App& command, BodyArguments& words, CLI::Option* fram
   still->excludes(frames);
 }
 
-std::vector<BodyFrames> bodies_of(const BodyArguments& words, FrameOrder order, std::vector<std::string>& notes) {
+std::vector<BodyFrames> bodies_of(const BodyArguments& arguments, FrameOrder order, std::vector<std::string>& notes) {
   std::vector<BodyFrames> bodies;
-  for (const std::string& word : words.bodies) bodies.push_back(parsed(word, "--body"));
-  for (const std::string& word : words.obstacles) bodies.push_back(obstacle(word));
+  for (const std::string& word : arguments.bodies) bodies.push_back(parsed(word, "--body"));
+  for (const std::string& word : arguments.obstacles) bodies.push_back(obstacle(word));
   order_bodies(bodies, order, notes);
   return bodies;
 }

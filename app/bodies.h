@@ -19,10 +19,10 @@ struct BodyArguments {
 };
 
 /// `frames`: the option that names frames of one mesh, which goes with neither; nullptr for a command without it.
-void add_body_options(CLI::App& command, BodyArguments& words, CLI::Option* frames);
+void add_body_options(CLI::App& command, BodyArguments& arguments, CLI::Option* frames);
 
 /// The bodies with their files, each in the order that is asked for. Notes on the order are added to `notes`. Throws
 /// UsageError, InputError.
-std::vector<BodyFrames> bodies_of(const BodyArguments& words, FrameOrder order, std::vector<std::string>& notes);
+std::vector<BodyFrames> bodies_of(const BodyArguments& arguments, FrameOrder order, std::vector<std::string>& notes);
 
 }  // namespace noli::app

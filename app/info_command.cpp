@@ -103,7 +103,7 @@ Json info_of(const std::filesystem::path& path) {
                      "first contact");
   }
   if (std::filesystem::is_directory(path)) return run_info(path);
-  if (is_proof(path)) return report::proof_json(path, inspect_proof(path));
+  if (is_proof(path)) return report::proof_info_json(path, inspect_proof(path));
   if (extension_of(path) == ".csv") return query_info(path);
   return holds_frames(path) && !is_frame_name(path) ? motion_info(path) : mesh_info(path);
 }

@@ -14,7 +14,7 @@ const char* what_moves(const std::string& motion) {
 
 }  // namespace
 
-Json proof_json(const std::filesystem::path& file, const ProofInfo& info) {
+Json proof_info_json(const std::filesystem::path& file, const ProofInfo& info) {
   return {{"file", file.string()},
           {"format", "Noli proof"},
           {"about", what_moves(info.motion)},

@@ -11,6 +11,6 @@
 namespace noli::report {
 
 /// One of the "files" of `noli info`. `file`: where the proof is.
-Json proof_json(const std::filesystem::path& file, const ProofInfo& info);
+Json proof_info_json(const std::filesystem::path& file, const ProofInfo& info);
 
 }  // namespace noli::report

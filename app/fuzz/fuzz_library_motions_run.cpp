@@ -31,7 +31,7 @@ Words replay_command(const LibraryArguments& library) {
   return words;
 }
 
-std::string again(const LibraryArguments& library, const fs::path& folder) {
+std::string replay_command(const LibraryArguments& library, const fs::path& folder) {
   Words words = replay_command(library);
   words.push_back(folder.string());
   return on_one_line(shell_words(words));
@@ -70,7 +70,7 @@ Json library_finding_json(const LibraryMotionArguments& arguments, const audit::
           {"cells", finding.shrunk.mesh.cell_count()},
           {"vertices", finding.shrunk.mesh.vertex_count},
           {"folder", folder},
-          {"command", folder.empty() ? "" : again(arguments.theirs, folder)}};
+          {"command", folder.empty() ? "" : replay_command(arguments.theirs, folder)}};
 }
 
 Json report_json(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report) {
@@ -109,7 +109,7 @@ std::string finding_text(const LibraryMotionArguments& arguments, const audit::L
                   finding.shrunk.frames.size(), finding.shrunk.mesh.cell_count(), finding.shrunk.mesh.vertex_count);
   if (finding.folder.empty()) return text + "not saved\n";
   return text + fmt::format("saved as {}\n  again: {}\n", on_one_line(finding.folder.string()),
-                            again(arguments.theirs, finding.folder));
+                            replay_command(arguments.theirs, finding.folder));
 }
 
 std::string report_text(const LibraryMotionArguments& arguments, const audit::LibraryMotionReport& report) {
@@ -159,20 +159,20 @@ ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments) {
       [&](const auto& report) { return report_text(arguments, report); });
 }
 
-ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
+ExitCode replay_motion_of_library(LibraryMotionArguments arguments) {
   settle(arguments);
-  const fs::path folder = arguments.again.saved();
+  const fs::path folder = arguments.replay.saved();
   const audit::LibraryUnderTest& library = arguments.theirs.asked;
   std::vector<fs::path> inputs = saved_files(folder);
   inputs.push_back(library.path);
   const Output output(arguments.common.results, inputs);
-  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   audit::require_ccd_library(library.path, library.host);
   const bool knows_times = audit::knows_times(library);
   auto found = audit::ask_motion(library, motion, {}, {knows_times, true}).found;
   std::optional<fs::path> saved;
-  if (found && arguments.again.minimise) {
+  if (found && arguments.replay.minimise) {
     audit::ShrunkMotion shrunk = audit::shrink_for_library(library, motion, *found, knows_times, 5000);
     motion = std::move(shrunk.motion);
     found = std::move(shrunk.found);
@@ -186,7 +186,7 @@ ExitCode motion_of_library_again(LibraryMotionArguments arguments) {
                               .saved = saved,
                               .facts = facts,
                               .pairs = {"frames", "cells", "vertices"},
-                              .about_saved = saved ? "\n  again: " + again(arguments.theirs, *saved) : ""});
+                              .about_saved = saved ? "\n  again: " + replay_command(arguments.theirs, *saved) : ""});
 }
 
 }  // namespace noli::app

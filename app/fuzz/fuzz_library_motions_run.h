@@ -12,7 +12,7 @@ namespace noli::app {
 
 struct LibraryMotionArguments {
   FuzzArgumentsInCommon common;
-  ReplayArguments again;
+  ReplayArguments replay;
   LibraryArguments theirs;
   std::size_t max_findings = 20;
   std::vector<std::string> families;  ///< names of generators; none: all of them
@@ -25,6 +25,6 @@ Json motion_facts(const audit::FrameMotion& motion);
 ExitCode fuzz_motions_of_library(LibraryMotionArguments arguments);
 
 /// --replay or --minimise, whichever was given.
-ExitCode motion_of_library_again(LibraryMotionArguments arguments);
+ExitCode replay_motion_of_library(LibraryMotionArguments arguments);
 
 }  // namespace noli::app

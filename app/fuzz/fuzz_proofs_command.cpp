@@ -46,7 +46,7 @@ constexpr std::size_t most_candidates = 20'000;  // of --minimise
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
-  ReplayArguments again;
+  ReplayArguments replay;
   std::uint64_t verified_every = 50;
 };
 
@@ -201,21 +201,21 @@ ExitCode run(ProofsArguments& arguments) {
 }
 
 /// A saved proof again, as it is or made smaller.
-ExitCode again(const ProofsArguments& arguments) {
+ExitCode replay(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) {
     throw UsageError("--replay and --minimise take a folder that was saved; expected no other files");
   }
-  const Output output(arguments.common.results, saved_files(arguments.again.saved()));
-  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
-  audit::JudgedProof proof{audit::read_proof_files(arguments.again.saved()), {}};
+  const Output output(arguments.common.results, saved_files(arguments.replay.saved()));
+  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
+  audit::JudgedProof proof{audit::read_proof_files(arguments.replay.saved()), {}};
   const audit::Checkers checkers = checkers_beside()();
   proof.judgement = audit::judge_proof(proof.files, checkers);
   const bool finding = !proof.judgement.difference.empty();
   std::optional<fs::path> saved;
-  if (finding && arguments.again.minimise) {
+  if (finding && arguments.replay.minimise) {
     proof = audit::minimise_finding(std::move(proof), checkers, interrupted(), most_candidates);
-    saved = minimised_folder(arguments.common, arguments.again.saved());
-    const std::string what = "made smaller: " + on_one_line(arguments.again.saved());
+    saved = minimised_folder(arguments.common, arguments.replay.saved());
+    const std::string what = "made smaller: " + on_one_line(arguments.replay.saved());
     audit::save_finding(proof.files, what, proof.judgement.difference, *saved);
   }
   const audit::ProofJudgement& judged = proof.judgement;
@@ -247,8 +247,8 @@ Command add_fuzz_proofs(CLI::App& fuzz) {
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str()
       ->type_name("N");
-  add_replay_options(*command, arguments->again, "proof", "FOLDER", {});
-  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : run(*arguments); }};
+  add_replay_options(*command, arguments->replay, "proof", "FOLDER", {});
+  return {command, [arguments] { return arguments->replay.given() ? replay(*arguments) : run(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -58,7 +58,7 @@ struct FuzzArguments : LibraryArguments, FuzzArgumentsInCommon {
 };
 
 /// "noli fuzz queries --library ./mine.so --tolerance 1e-06 --replay FILE"
-std::string again(const FuzzArguments& arguments, const fs::path& file) {
+std::string replay_command(const FuzzArguments& arguments, const fs::path& file) {
   std::string command = "noli fuzz queries";
   for (const std::string& word : library_words(arguments)) command += " " + audit::quoted(word);
   return on_one_line(command + " --replay " + audit::quoted(file.string()));
@@ -224,7 +224,7 @@ ExitCode minimise(const FuzzArguments& arguments) {
   report::Answer answer(json, {"queries", "findings"});
   for (const audit::Finding& finding : findings) {
     const fs::path result = audit::unused(minimised_name(arguments, finding.index + 1));
-    const std::string command = again(arguments, result);
+    const std::string command = replay_command(arguments, result);
     save(finding, result, file.queries()[finding.index].probe.has_value(), command);
     answer.text += fmt::format("query {}: {}; {} different numbers; saved as {}\n  again: {}\n", finding.index + 1,
                                finding.difference, audit::distinct_coordinates(finding.shrunk),
@@ -247,7 +247,7 @@ ExitCode run(const FuzzArguments& arguments, Options options, const Output& outp
              const Fuzz& fuzz, const JsonOf& json_of, const TextOf& text_of) {
   set_common(options, arguments);
   options.max_findings = arguments.max_findings;
-  options.command = [&arguments](const fs::path& file) { return again(arguments, file); };
+  options.command = [&arguments](const fs::path& file) { return replay_command(arguments, file); };
   return run_fuzzer(
       names, output, options, fuzz, [&](const auto& report) { return json_of(options, report); },
       [&](const auto& report) { return text_of(options, report); });
@@ -291,13 +291,13 @@ Command add_fuzz_queries(CLI::App& fuzz) {
       ->type_name("T")
       ->needs(command->get_option("--library"));
   CLI::Option* const out = command->get_option("--out");
-  CLI::Option* const again =
+  CLI::Option* const replay =
       command->add_option("--replay", arguments->replay, "Decide the queries of these files again instead")
           ->type_name("FILE");
   command
       ->add_flag("--in-process", arguments->asked.host.in_process,
                  "Call the library in this process, for a debugger or a sanitizer: nothing protects noli from it")
-      ->needs(again)
+      ->needs(replay)
       ->needs(command->get_option("--library"))
       ->excludes(command->get_option("--sandbox"))
       ->excludes(command->get_option("--query-limit"))
@@ -307,10 +307,10 @@ Command add_fuzz_queries(CLI::App& fuzz) {
           ->add_option("--minimise", arguments->minimise,
                        "Instead, shrink the failing queries of this file, and save them next to it or in --out")
           ->type_name("FILE");
-  again->excludes(smaller)->excludes(out);
+  replay->excludes(smaller)->excludes(out);
   for (const char* const name :
        {"--for", "--count", "--seed", "--corpus", "--max-findings", "--threads", "--first-only"}) {
-    again->excludes(command->get_option(name));
+    replay->excludes(command->get_option(name));
     smaller->excludes(command->get_option(name));
   }
   return {command, [arguments, out] {

@@ -37,7 +37,7 @@ constexpr const char* scenes_footer =
 
 struct ScenesArguments {
   FuzzArgumentsInCommon common;
-  ReplayArguments again;
+  ReplayArguments replay;
   std::optional<std::string> wrong_place;
 };
 
@@ -93,10 +93,10 @@ ExitCode fuzz(ScenesArguments& arguments) {
 }
 
 /// A saved scene again, as it is or made smaller.
-ExitCode again(const ScenesArguments& arguments) {
-  const fs::path file = arguments.again.saved();
+ExitCode replay(const ScenesArguments& arguments) {
+  const fs::path file = arguments.replay.saved();
   const Output output(arguments.common.results, {file});
-  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   audit::SceneJson scene = audit::read_saved_scene(file);
@@ -106,7 +106,7 @@ ExitCode again(const ScenesArguments& arguments) {
   };
   audit::SceneJudgement judgement = judge(scene);
   std::optional<fs::path> saved;
-  if (judgement.difference && arguments.again.minimise) {
+  if (judgement.difference && arguments.replay.minimise) {
     const std::string kind(audit::kind_of(*judgement.difference));
     scene = audit::minimise(
         scene, [&](const audit::SceneJson& candidate) { return audit::is_of_kind(judge(candidate).difference, kind); },
@@ -135,12 +135,12 @@ Command add_fuzz_scenes(CLI::App& fuzz_app) {
   command->footer(scenes_footer);
   const auto arguments = std::make_shared<ScenesArguments>();
   add_fuzz_options(*command, arguments->common, "scenes");
-  add_replay_options(*command, arguments->again, "scene", "SCENE.json", {});
+  add_replay_options(*command, arguments->replay, "scene", "SCENE.json", {});
   command
       ->add_option("--wrong-place", arguments->wrong_place,
                    "With --replay or --minimise: the scene is wrong there, as in /bodies/0/mesh")
       ->type_name("PLACE");
-  return {command, [arguments] { return arguments->again.given() ? again(*arguments) : fuzz(*arguments); }};
+  return {command, [arguments] { return arguments->replay.given() ? replay(*arguments) : fuzz(*arguments); }};
 }
 
 }  // namespace noli::app

@@ -103,10 +103,10 @@ ExitCode fuzz(TrajectoriesArguments& arguments) {
 }
 
 /// A saved motion again, as it is or made smaller.
-ExitCode again(const TrajectoriesArguments& arguments) {
-  const fs::path folder = arguments.again.saved();
+ExitCode replay(const TrajectoriesArguments& arguments) {
+  const fs::path folder = arguments.replay.saved();
   const Output output(arguments.common.results, saved_files(folder));
-  if (arguments.again.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
   audit::VerifyProgram subject(1, interrupted());
   bool undecided = false;  // the last one, in the time that there was
@@ -120,7 +120,7 @@ ExitCode again(const TrajectoriesArguments& arguments) {
   };
   auto found = what(motion);
   std::optional<fs::path> saved;
-  if (found && arguments.again.minimise) {
+  if (found && arguments.replay.minimise) {
     const std::string kind(audit::kind_of(*found));
     motion = audit::minimise(
         motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
@@ -137,11 +137,11 @@ ExitCode again(const TrajectoriesArguments& arguments) {
 }
 
 ExitCode run(TrajectoriesArguments& arguments) {
-  const bool saved = arguments.again.given();
+  const bool saved = arguments.replay.given();
   if (arguments.theirs.asks_a_library()) {
-    return saved ? motion_of_library_again(arguments) : fuzz_motions_of_library(arguments);
+    return saved ? replay_motion_of_library(arguments) : fuzz_motions_of_library(arguments);
   }
-  return saved ? again(arguments) : fuzz(arguments);
+  return saved ? replay(arguments) : fuzz(arguments);
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ Command add_fuzz_trajectories(CLI::App& fuzz_app) {
       ->check(CLI::IsMember(names))
       ->allow_extra_args(false)
       ->type_name("NAME");
-  add_replay_options(*command, arguments->again, "motion", "FOLDER", {"--first-only", "--max-findings", "--family"});
+  add_replay_options(*command, arguments->replay, "motion", "FOLDER", {"--first-only", "--max-findings", "--family"});
   command->get_option("--library")->excludes(verified_every);
   return {command, [arguments] { return run(*arguments); }};
 }

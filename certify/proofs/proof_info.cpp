@@ -34,12 +34,11 @@ std::string place(const Block& block) { return fmt::format("byte {}", block.payl
 class Contents {
  public:
   Contents(const std::filesystem::path& path, const std::function<void(double)>& progress)
-      : path_(path.string()), reader_(path, proof_content) {
-    const auto size = static_cast<double>(std::filesystem::file_size(path));
+      : path_(path.string()), reader_(path, proof_content), bytes_(std::filesystem::file_size(path)) {
     while (auto block = reader_.next()) {
       end_if_stopped();
       const auto read = static_cast<double>(block->payload_offset() + block->payload.size());
-      if (progress) progress(std::min(1.0, read / size));
+      if (progress) progress(std::min(1.0, read / static_cast<double>(bytes_)));
       add(*block);
     }
     if (!claim_) throw InputError(path_, "", "ends before its claim is committed");
@@ -62,7 +61,7 @@ class Contents {
             .from = committed_.begin,
             .to = committed_.end,
             .token_bytes = committed_.token_bytes,
-            .bytes = std::filesystem::file_size(path_),
+            .bytes = bytes_,
             .open_group = reader_.open_group().has_value()};
   }
 
@@ -97,7 +96,8 @@ class Contents {
 
   std::string path_;
   BlockReader reader_;
-  ProofGroup first_;  ///< until it is committed
+  std::uint64_t bytes_;  ///< of the file
+  ProofGroup first_;     ///< until it is committed
   std::optional<ParsedClaim> claim_;
   Totals open_, committed_;
 };

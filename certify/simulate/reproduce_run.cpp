@@ -36,7 +36,7 @@ template <int Dim>
 Found<Dim> find_window(const ReproduceRequest& request) {
   SeriesReader reader = open_run(request.run);
   Found<Dim> found;
-  while (auto window = request.window > 0 ? reader.next_window() : std::nullopt) {
+  while (auto window = reader.next_window()) {
     end_if_stopped();
     tell(request, "read", static_cast<double>(window->index + 1) / static_cast<double>(request.window));
     if (window->index + 1 == request.window) {
@@ -97,6 +97,7 @@ ReproduceOutcome reproduce(const ReproduceRequest& request, const integrator::Sc
 }  // namespace
 
 ReproduceOutcome run_reproduce(const ReproduceRequest& request) {
+  if (request.window == 0) throw UsageError("window 0: windows count from 1");
   const StopOfThread stop_of_thread(request.stop);
   const auto form = request.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(request.scene, form);

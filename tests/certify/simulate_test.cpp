@@ -207,6 +207,7 @@ TEST_F(SimulateInProcess, AnotherSceneIsNotReproduced) {
   EXPECT_FALSE(outcome.same);
   EXPECT_NE(outcome.found, outcome.expected);
   EXPECT_THROW(run_reproduce({.scene = asked.scene, .run = asked.run, .window = 5}), InputError);
+  EXPECT_THROW(run_reproduce({.scene = asked.scene, .run = asked.run, .window = 0}), UsageError);
   EXPECT_THROW(run_reproduce({.scene = asked.scene, .run = folder / "none", .window = 1}), InputError);
 }
 
