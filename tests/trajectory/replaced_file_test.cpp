@@ -60,11 +60,13 @@ class AsNobody {
 };
 
 class ReplacedFiles : public ::testing::Test {
+ public:
+  ReplacedFiles(const ReplacedFiles&) = delete;
+  ReplacedFiles& operator=(const ReplacedFiles&) = delete;
+
  protected:
   ReplacedFiles() : mask_(::umask(022)) {}
   ~ReplacedFiles() override { ::umask(mask_); }
-  ReplacedFiles(const ReplacedFiles&) = delete;
-  ReplacedFiles& operator=(const ReplacedFiles&) = delete;
 
   static unsigned mode_of(const fs::path& path) { return static_cast<unsigned>(fs::status(path).permissions()); }
   /// Replaces the file as a whole.
