@@ -24,6 +24,9 @@ target_compile_options(noli_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
 if(NOLI_SANITIZE)
   add_compile_options(-fsanitize=${NOLI_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${NOLI_SANITIZE})
+  if(NOLI_SANITIZE_WITHOUT)
+    add_compile_options(-fno-sanitize=${NOLI_SANITIZE_WITHOUT})
+  endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")  # g++ defines them itself
     foreach(kind IN ITEMS address thread)
       if(NOLI_SANITIZE MATCHES "${kind}")
