@@ -21,7 +21,7 @@
 //               there is no room
 //
 // Activating a layer early does not change the motion, since its impulses are zero. So everything here may err on that
-// side, and does: thresholds for activation lie a quarter of a layer's width outside. Times are chosen in double;
+// side, and does: thresholds for activation lie half of a layer's width outside. Times are chosen in double;
 // whether a guard or a wall holds until then is decided exactly (certificates/decisions.h).
 //
 // Host, the dynamics:
@@ -135,7 +135,7 @@ class Cells {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   /// The share of a slab's slack below which the slab is replaced.
-  static constexpr double worn = 0.3;
+  static constexpr double worn = 0.4;
   /// The share of the time to a wall at which a plan ends.
   static constexpr double reach = 0.9;
   /// The share of a guard's squared radius beyond which a vertex gets a new guard.

@@ -134,7 +134,7 @@ void lose_layer(Host& host, LayeredPair& pair, CertificateCounts& counts) {
 }
 
 /// Puts up a slab of thickness eta(L + 1) at the pair's position at time t, after adding as many layers as needed. A
-/// layer is added when the remaining room is less than a quarter of the next one's width. Returns the distance.
+/// layer is added when the remaining room is less than half of the next one's width. Returns the distance.
 template <int Dim, class Host>
 double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, CertificateCounts& counts) {
   const Stencil& s = pair.stencil;
@@ -150,7 +150,7 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, Cer
   while (pair.layers < host.least_layers()) gain_layer(host, pair, t, counts);
   for (;; gain_layer(host, pair, t, counts)) {
     const double eta = host.thickness(pair.material, pair.layers + 1);
-    const double room = 0.25 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * recording;
+    const double room = 0.5 * (eta - host.thickness(pair.material, pair.layers + 2)) + 64 * recording;
     if (!(c.distance() - eta > room)) continue;
     pair.slab = slab_between<Dim>(s, c, xs, vs, t, 0.5 * eta);
     if (pair.slab.slack > 0.25 * room) return c.distance();
@@ -162,7 +162,7 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, Cer
 template <class Host>
 bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double recording) {
   const double eta = host.thickness(material, l);
-  return l > host.least_layers() && distance > eta + 0.5 * (eta - host.thickness(material, l + 1)) + 128 * recording;
+  return l > host.least_layers() && distance > eta + (eta - host.thickness(material, l + 1)) + 128 * recording;
 }
 
 }  // namespace noli::certificates
