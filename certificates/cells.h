@@ -74,6 +74,7 @@ class Cells {
         length_(longest_slice / 8),
         courses_(x.size()),
         tubes_(x.size()),
+        ends_(x.size()),
         guards_(x.size()),
         due_(x.size(), never),
         nears_(x.size()),
@@ -148,6 +149,14 @@ class Cells {
   /// A vertex's position when the slice began, and its mean velocity in the slice before.
   struct Course {
     Vector<Dim> x = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
+  };
+
+  /// Where a vertex's tube is when the slice begins and ends. One that was set later is extended back.
+  struct TubeEnds {
+    Vector<Dim> begin, end;
+    double radius;
+
+    Vector<Dim> at(double share) const { return (1 - share) * begin + share * end; }
   };
 
   Line<Dim> line_at(VertexId i, double t) const {
@@ -244,7 +253,9 @@ class Cells {
     const double look = std::min(host_.look_step(i), slice_end_ - now.t);
     if (!((line.v - now.v).squaredNorm() * look * look <= 0.25 * sizes_[i] * sizes_[i])) line.v = now.v;
     tubes_[i] = {line, sizes_[i], slice_end_};
-    decisions_.reach_out(tubes_[i]);
+    ends_[i] = {line.at(slice_begin_), line.at(slice_end_), sizes_[i]};
+    const Line<Dim> from_begin{ends_[i].begin, slice_begin_, line.v};  // reaches out as far as the tube, or farther
+    decisions_.reach_out(Plan<Dim>{from_begin, sizes_[i], slice_end_});
     decisions_.reach_out(now, slice_end_);
   }
 
@@ -255,9 +266,8 @@ class Cells {
     const double room_of_cell = halves_[cell] + margin();
     MovingBox<Dim> box = MovingBox<Dim>::empty();
     for (const VertexId v : features_.cells()[cell].all()) {
-      const Plan<Dim>& tube = tubes_[v];
-      const Vector<Dim> room = Vector<Dim>::Constant(tube.radius + room_of_cell);
-      const Vector<Dim> begin = tube.line.at(slice_begin_), end = tube.line.at(slice_end_);
+      const auto& [begin, end, radius] = ends_[v];
+      const Vector<Dim> room = Vector<Dim>::Constant(radius + room_of_cell);
       box.add({{begin - room, end - room}, {begin + room, end + room}});
     }
     return box;
@@ -267,7 +277,7 @@ class Cells {
   void find_near(double t) {
     for (Pen<Dim>& pen : pens_) pen.take_down();
     nears_.begin_slice();
-    find_pairs(t);
+    find_pairs();
     nears_.for_each_left_out([this](LayeredPair& pair) {
       while (pair.layers > 0) lose_layer(host_, pair, counts_);
     });
@@ -281,65 +291,71 @@ class Cells {
     }
   }
 
-  void find_pairs(double t) {
+  void find_pairs() {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     hierarchy_.refit([this](std::uint32_t cell) { return box_of(cell); });
     hierarchy_.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
-      if (cells_settled(a, b, t)) return;
-      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil, t); });
+      if (cells_settled(a, b)) return;
+      features_.for_each_pair(a, b, [&](const Stencil& stencil) { consider(stencil); });
     });
   }
 
   // --- Pairs ---------------------------------------------------------------------------------------------------------
 
   /// Stores a pair that the tubes do not settle. The caller must put up its slab. Precondition: it is not stored yet.
-  void consider(const Stencil& s, double t) {
+  void consider(const Stencil& s) {
     const std::uint16_t material = material_of(host_, s);
-    if (material == no_material || settled(s, material, t)) return;
+    if (material == no_material || settled(s, material)) return;
     nears_.add(s, material);
     counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
   }
 
-  /// Whether some direction keeps the tubes apart until the slice's end.
-  bool settled(const Stencil& s, std::uint16_t material, double t) const {
+  using Vertices = std::span<const VertexId>;
+
+  /// Whether some direction keeps the tubes apart for the whole slice: one between centres, which is enough for most
+  /// pairs, or between closest points.
+  bool settled(const Stencil& s, std::uint16_t material) const {
     const double eta = host_.thickness(material, 1) + 2 * margin();
-    const std::span<const VertexId> a(s.vertices.data(), s.first()),
-        b(s.vertices.data() + s.first(), s.size() - s.first());
-    for (const double when : {t, slice_end_, 0.5 * (t + slice_end_)}) {
+    const Vertices a(s.vertices.data(), s.first()), b(s.vertices.data() + s.first(), s.size() - s.first());
+    if (centres_keep_apart(a, b, eta)) return true;
+    for (const double share : {0.0, 1.0, 0.5}) {
       std::array<Vector<Dim>, 4> x;
-      for (std::size_t k = 0; k < s.size(); ++k) x[k] = tubes_[s.vertices[k]].line.at(when);
+      for (std::size_t k = 0; k < s.size(); ++k) x[k] = ends_[s.vertices[k]].at(share);
       const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
       const double d = c.distance();
       if (!(d > eta)) return false;
-      if (keeps_apart(a, b, direction<Dim>(c.r, d), eta, t)) return true;
+      if (keeps_apart(a, b, direction<Dim>(c.r, d), eta)) return true;
     }
     return false;
   }
 
   /// The same for all pairs of two cells, by the direction between their centres. False if the cells share a vertex.
-  bool cells_settled(std::uint32_t a, std::uint32_t b, double t) const {
+  bool cells_settled(std::uint32_t a, std::uint32_t b) const {
     const auto p = features_.cells()[a].all(), q = features_.cells()[b].all();
     if (std::ranges::find_first_of(p, q) != p.end()) return false;
-    Vector<Dim> n = centre(p, t) - centre(q, t);
-    const double length = std::sqrt(n.squaredNorm());
-    return length > 0 && keeps_apart(p, q, direction<Dim>(n, length), halves_[a] + halves_[b] + 2 * margin(), t);
+    return centres_keep_apart(p, q, halves_[a] + halves_[b] + 2 * margin());
   }
 
-  Vector<Dim> centre(std::span<const VertexId> vertices, double t) const {
+  bool centres_keep_apart(Vertices a, Vertices b, double eta) const {
+    const Vector<Dim> n = centre(a) - centre(b);
+    const double length = std::sqrt(n.squaredNorm());
+    return length > 0 && keeps_apart(a, b, direction<Dim>(n, length), eta);
+  }
+
+  Vector<Dim> centre(Vertices vertices) const {
     Vector<Dim> sum = Vector<Dim>::Zero();
-    for (const VertexId v : vertices) sum += tubes_[v].line.at(t);
+    for (const VertexId v : vertices) sum += ends_[v].begin;
     return sum / static_cast<double>(vertices.size());
   }
 
-  bool keeps_apart(std::span<const VertexId> a, std::span<const VertexId> b, const Vector<Dim>& n, double eta,
-                   double t) const {
-    return gap(a, b, n, t) > eta && gap(a, b, n, slice_end_) > eta;
+  bool keeps_apart(Vertices a, Vertices b, const Vector<Dim>& n, double eta) const {
+    return gap(a, b, n, &TubeEnds::begin) > eta && gap(a, b, n, &TubeEnds::end) > eta;
   }
 
-  double gap(std::span<const VertexId> a, std::span<const VertexId> b, const Vector<Dim>& n, double t) const {
+  double gap(Vertices a, Vertices b, const Vector<Dim>& n, Vector<Dim> TubeEnds::*at) const {
     double low = never, high = -never;
-    for (const VertexId v : a) low = std::min(low, n.dot(tubes_[v].line.at(t)) - tubes_[v].radius);
-    for (const VertexId v : b) high = std::max(high, n.dot(tubes_[v].line.at(t)) + tubes_[v].radius);
+    for (const VertexId v : a) low = std::min(low, n.dot(ends_[v].*at) - ends_[v].radius);
+    for (const VertexId v : b) high = std::max(high, n.dot(ends_[v].*at) + ends_[v].radius);
     return low - high;
   }
 
@@ -435,32 +451,32 @@ class Cells {
     set_tube(i, now, line);
     pens_[i].take_down();
     const std::size_t known = nears_.size();
-    find_near_cells(i, now.t);
+    find_near_cells(i);
     for (std::size_t n = known; n < nears_.size(); ++n) put_up_slab(static_cast<std::uint32_t>(n), now.t);
     const bool crowded = nears_.size() > 2 * nears_at_begin_ + tubes_.size();
     if (retubed_ * 8 > tubes_.size() + 64 || crowded) slice_due_ = now.t;
   }
 
   /// Finds pairs that the vertex is part of, after its tube has changed.
-  void find_near_cells(VertexId i, double t) {
+  void find_near_cells(VertexId i) {
     [[maybe_unused]] const auto searching = host_.in_broad_phase();
     known_.clear();
     for (const Side side : nears_.of(i)) known_.push_back(nears_[side.near()].stencil.key);
     std::sort(known_.begin(), known_.end());
     for (const std::uint32_t cell : features_.cells_of(i)) hierarchy_.enlarge(cell, box_of(cell));
-    for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell, t);
+    for (const std::uint32_t cell : features_.cells_of(i)) find_near_cell(i, cell);
   }
 
   /// Finds unknown pairs of this cell that the vertex is part of. Of pairs with another cell of the vertex, takes only
   /// those with a later cell, so that none is found twice.
-  void find_near_cell(VertexId i, std::uint32_t cell, double t) {
+  void find_near_cell(VertexId i, std::uint32_t cell) {
     const auto of_i = features_.cells_of(i);
     hierarchy_.for_each_near(box_of(cell), [&](std::uint32_t other) {
       if (other <= cell && std::binary_search(of_i.begin(), of_i.end(), other)) return;
       features_.for_each_pair(cell, other, [&](const Stencil& s) {
         const auto end = s.vertices.begin() + s.size();
         if (std::find(s.vertices.begin(), end, i) == end) return;
-        if (!std::binary_search(known_.begin(), known_.end(), s.key)) consider(s, t);
+        if (!std::binary_search(known_.begin(), known_.end(), s.key)) consider(s);
       });
     });
   }
@@ -560,7 +576,9 @@ class Cells {
   std::vector<double> sizes_;       ///< radii of tubes
   std::vector<double> halves_;      ///< by cell: half of the largest eta(1) of its features
   std::vector<Course> courses_;
-  std::vector<Plan<Dim>> tubes_, guards_;
+  std::vector<Plan<Dim>> tubes_;
+  std::vector<TubeEnds> ends_;  ///< of tubes
+  std::vector<Plan<Dim>> guards_;
   std::vector<double> due_;  ///< by vertex: the time of its event, or never
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   NearPairs<Dim> nears_;
