@@ -165,6 +165,10 @@ ExitCode run(const ExportArguments& arguments) {
   if (arguments.at) return paint({request.run, *arguments.at, view, request.pattern});
   if (arguments.figure) return draw({request.run, *arguments.figure, request.pattern});
   const bool film = request.pattern.ends_with(".png");
+  if (film && request.pattern.find('%') == std::string::npos) {
+    throw UsageError("-o " + request.pattern +
+                     ": expected --at TIME for one picture, or a name with one %d or %05d for a film");
+  }
   if (!film && (view.from || view.size || !view.zoom.empty())) {
     throw UsageError("--from, --size, --zoom: are for pictures; expected --at, or -o with a pattern that ends in .png");
   }
@@ -189,7 +193,8 @@ Command add_export(CLI::App& app) {
                    "The folder of a run, a result of `noli verify --json` with a contact, or one of `noli repair`")
       ->required()
       ->type_name("RUN|RESULT.json");
-  auto* const fps = command->add_option("--fps", request->fps, "Frames a second of simulated time");
+  auto* const fps = command->add_option("--fps", request->fps,
+                                        "Frames a second of simulated time; runs that recorded frames have their own");
   fps->check(is_positive())->capture_default_str();
   command
       ->add_option("-o,--output", request->pattern,
@@ -210,7 +215,9 @@ Command add_export(CLI::App& app) {
   command->add_option("--from", arguments->from, "Direction from which a picture is seen: x y z, or x,y,z")
       ->delimiter(',');
   command->add_option("--size", arguments->size, "Pixels of a picture; default: 640 wide")->type_name("WxH");
-  command->add_option("--zoom", arguments->zoom, "With a run: the body that fills the picture; default: all that moves")
+  command
+      ->add_option("--zoom", arguments->zoom,
+                   "With a run: the body that fills the picture; default: all but fixed parts of at most four vertices")
       ->type_name("BODY");
   command
       ->add_option("--contact", arguments->contact,
