@@ -193,8 +193,8 @@ Command add_export(CLI::App& app) {
                    "The folder of a run, a result of `noli verify --json` with a contact, or one of `noli repair`")
       ->required()
       ->type_name("RUN|RESULT.json");
-  auto* const fps = command->add_option("--fps", request->fps,
-                                        "Frames a second of simulated time; runs that recorded frames have their own");
+  auto* const fps = command->add_option(
+      "--fps", request->fps, "Frames a second of simulated time; without effect on a run that recorded frames");
   fps->check(is_positive())->capture_default_str();
   command
       ->add_option("-o,--output", request->pattern,
@@ -216,8 +216,9 @@ Command add_export(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--size", arguments->size, "Pixels of a picture; default: 640 wide")->type_name("WxH");
   command
-      ->add_option("--zoom", arguments->zoom,
-                   "With a run: the body that fills the picture; default: all but fixed parts of at most four vertices")
+      ->add_option(
+          "--zoom", arguments->zoom,
+          "With a run: the body that fills the picture; default: all except fixed parts of at most four vertices")
       ->type_name("BODY");
   command
       ->add_option("--contact", arguments->contact,

@@ -151,12 +151,15 @@ class Cells {
     Vector<Dim> x = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
   };
 
-  /// Where a vertex's tube is when the slice begins and ends. One that was set later is extended back.
+  using Vertices = std::span<const VertexId>;
+
+  /// What the broad phase reads of a vertex's tube, in one place: where it is when the slice begins and ends. A tube
+  /// that was set later is extended back, to where its vertex may never have been; so it settles fewer pairs.
   struct TubeEnds {
     Vector<Dim> begin, end;
     double radius;
 
-    Vector<Dim> at(double share) const { return (1 - share) * begin + share * end; }
+    Vector<Dim> between(double share) const { return (1 - share) * begin + share * end; }
   };
 
   Line<Dim> line_at(VertexId i, double t) const {
@@ -254,7 +257,7 @@ class Cells {
     if (!((line.v - now.v).squaredNorm() * look * look <= 0.25 * sizes_[i] * sizes_[i])) line.v = now.v;
     tubes_[i] = {line, sizes_[i], slice_end_};
     ends_[i] = {line.at(slice_begin_), line.at(slice_end_), sizes_[i]};
-    const Line<Dim> from_begin{ends_[i].begin, slice_begin_, line.v};  // reaches out as far as the tube, or farther
+    const Line<Dim> from_begin{ends_[i].begin, slice_begin_, line.v};  // its reach is at least the tube's
     decisions_.reach_out(Plan<Dim>{from_begin, sizes_[i], slice_end_});
     decisions_.reach_out(now, slice_end_);
   }
@@ -310,8 +313,6 @@ class Cells {
     counts_.most_near = std::max<std::uint64_t>(counts_.most_near, nears_.size());
   }
 
-  using Vertices = std::span<const VertexId>;
-
   /// Whether some direction keeps the tubes apart for the whole slice: one between centres, which is enough for most
   /// pairs, or between closest points.
   bool settled(const Stencil& s, std::uint16_t material) const {
@@ -320,7 +321,7 @@ class Cells {
     if (centres_keep_apart(a, b, eta)) return true;
     for (const double share : {0.0, 1.0, 0.5}) {
       std::array<Vector<Dim>, 4> x;
-      for (std::size_t k = 0; k < s.size(); ++k) x[k] = ends_[s.vertices[k]].at(share);
+      for (std::size_t k = 0; k < s.size(); ++k) x[k] = ends_[s.vertices[k]].between(share);
       const Closest<Dim> c = closest<Dim>(s.kind, std::span<const Vector<Dim>>(x.data(), s.size()));
       const double d = c.distance();
       if (!(d > eta)) return false;
@@ -336,12 +337,14 @@ class Cells {
     return centres_keep_apart(p, q, halves_[a] + halves_[b] + 2 * margin());
   }
 
+  /// Whether the direction between the centres of a and b keeps their tubes apart by more than eta.
   bool centres_keep_apart(Vertices a, Vertices b, double eta) const {
     const Vector<Dim> n = centre(a) - centre(b);
     const double length = std::sqrt(n.squaredNorm());
     return length > 0 && keeps_apart(a, b, direction<Dim>(n, length), eta);
   }
 
+  /// When the slice begins.
   Vector<Dim> centre(Vertices vertices) const {
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (const VertexId v : vertices) sum += ends_[v].begin;
@@ -352,10 +355,10 @@ class Cells {
     return gap(a, b, n, &TubeEnds::begin) > eta && gap(a, b, n, &TubeEnds::end) > eta;
   }
 
-  double gap(Vertices a, Vertices b, const Vector<Dim>& n, Vector<Dim> TubeEnds::*at) const {
+  double gap(Vertices a, Vertices b, const Vector<Dim>& n, Vector<Dim> TubeEnds::*when) const {
     double low = never, high = -never;
-    for (const VertexId v : a) low = std::min(low, n.dot(ends_[v].*at) - ends_[v].radius);
-    for (const VertexId v : b) high = std::max(high, n.dot(ends_[v].*at) + ends_[v].radius);
+    for (const VertexId v : a) low = std::min(low, n.dot(ends_[v].*when) - ends_[v].radius);
+    for (const VertexId v : b) high = std::max(high, n.dot(ends_[v].*when) + ends_[v].radius);
     return low - high;
   }
 

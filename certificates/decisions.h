@@ -5,7 +5,8 @@
 // in any way; the answer here is never true for a time that is too late.
 //
 // Notation: that of certificates/cells.h and of kernel/failure_time.h, and
-//   reach       a bound of all coordinates of vertices and their plans in this slice
+//   reach       a bound of all coordinates of vertices and their plans in this slice, up to some roundings; of tubes
+//               from the slice's begin
 //   rounding    2^-44 reach: a bound of the rounding in a clearance, a deviation or a gap computed in double
 //   recording   2^-47 reach: how far recorded positions, and those that a layer computes, may differ from extrapolated
 //               ones, for each side of a pair (proofs/theory.md, C1). Walls keep it clear; certificates include it

@@ -157,8 +157,8 @@ double fit_slab(Host& host, NearPair<Dim>& pair, double t, double recording, Cer
   }
 }
 
-/// Whether a pair is so far apart that layer l, if it is the deepest, may be dropped: twice the distance at which it
-/// would be added again.
+/// Whether a pair is so far apart that layer l, if it is the deepest, may be dropped: twice as far outside the layer as
+/// where it would be added again.
 template <class Host>
 bool is_clear(const Host& host, std::uint16_t material, std::uint32_t l, double distance, double recording) {
   const double eta = host.thickness(material, l);

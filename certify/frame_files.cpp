@@ -16,8 +16,7 @@ namespace noli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& pattern) {
-  throw UsageError("-o " + pattern +
-                   ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu, or for a film in .png");
+  throw UsageError("-o " + pattern + ": expected a name with one %d or %05d that ends in .ply, .obj or .vtu");
 }
 
 }  // namespace

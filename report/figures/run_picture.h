@@ -23,7 +23,8 @@ struct PictureView {
   std::optional<Position> from;  ///< direction in which the eye is; its own for each dimension
   /// Width and height [pixels]; without it, 640 and what the shape of what is seen asks for.
   std::optional<std::array<std::size_t, 2>> size;
-  /// The name of a body that fills the picture. Empty: all that is there does, but fixed parts of at most four vertices.
+  /// The name of a body that fills the picture. Empty: everything fills it, where there are faces except fixed parts of
+  /// at most four vertices.
   std::string zoom;
 };
 

@@ -233,7 +233,7 @@ TEST_F(ExportPicture, BadInputIsNamed) {
   expect_refused({"--at", "0.1", "--from", "0", "0", "0", "-o", run_path("p.png")}, "--from");
   expect_refused({"--at", "0.1", "--fps", "3", "-o", run_path("p.png")}, "--fps");
   expect_refused({"--at", "0.1", "--from", "1,0", "-o", run_path("p.png")}, "--from");
-  expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "with one %d");
+  expect_refused({"--from", "0", "0", "1", "-o", run_path("p.png")}, "expected --at TIME for one picture");
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--from", "0,0,1"}, {"--size", "64x64"}, {"--zoom", "sheet"}}) {
     expect_refused({option[0], option[1], "-o", run_path("%d.ply")}, "are for pictures; expected --at");

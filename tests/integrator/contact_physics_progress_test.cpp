@@ -15,7 +15,7 @@
 namespace noli::integrator {
 namespace {
 
-/// Repairs, plans and tubes per activation. In these scenes there are 83 to 215, whatever the number of vertices.
+/// Repairs, plans and tubes per activation. In these scenes there are 73 to 209, whatever the number of vertices.
 constexpr double most_per_activation = 600;
 
 struct Contacts {

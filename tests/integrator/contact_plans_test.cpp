@@ -59,8 +59,8 @@ void expect_few_plans(const Json& scene, std::uint64_t windows, std::uint64_t im
   EXPECT_LT(impulses_a_plan * c.plans, impulses);
 }
 
-TEST(FewPlans, AtHighSpeed) { expect_few_plans(beads_and_sheets(), 1, 7); }
-TEST(FewPlans, BetweenPlates) { expect_few_plans(pinched_sheets(), 18, 100); }
+TEST(FewPlans, AtHighSpeed) { expect_few_plans(beads_and_sheets(), 1, 7); }     // 7.9 found
+TEST(FewPlans, BetweenPlates) { expect_few_plans(pinched_sheets(), 18, 250); }  // 302 found
 
 }  // namespace
 }  // namespace noli::integrator
