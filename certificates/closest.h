@@ -96,14 +96,9 @@ class ClosestFinder {
     if (vb <= S(0) && d2 >= S(0) && d6 <= S(0)) return corner_segment(0, 1, 3, S(1));
     if (va <= S(0) && d4 - d3 >= S(0) && d5 - d6 >= S(0)) return corner_segment(0, 2, 3, S(1));
     const S sum = va + vb + vc;
-    if (!(sum > S(0))) return nearest_border();
-    const S v = clamp_unit<S>(vb / sum), w = std::min<S>(clamp_unit<S>(vc / sum), S(1) - v);
-    weigh(0, S(1));
-    weigh(1, -(S(1) - v - w));
-    weigh(2, -v);
-    weigh(3, -w);
-    slide(2, 1);
-    slide(3, 1);
+    if (!(sum > S(1e-8) * ab.squaredNorm() * ac.squaredNorm())) return foot_on_sliver(ab, ac, ap);
+    const S v = clamp_unit<S>(vb / sum);
+    foot(v, std::min<S>(clamp_unit<S>(vc / sum), S(1) - v));
   }
 
   void edge_edge() {
@@ -143,7 +138,30 @@ class ClosestFinder {
     return S(0.5) * (s0 + s1);
   }
 
-  /// The nearest point of a triangle without area.
+  /// The nearest point of a face is inside it: corner 1 + v ab + w ac.
+  void foot(const S& v, const S& w) {
+    weigh(0, S(1));
+    weigh(1, -(S(1) - v - w));
+    weigh(2, -v);
+    weigh(3, -w);
+    slide(2, 1);
+    slide(3, 1);
+  }
+
+  /// The foot of the vertex on a face whose angle at corner 1 is below 1e-4. The barycentric products cancel there:
+  /// their error, in units of the length, is that of rounding over the angle squared. Distances across ab lose only
+  /// rounding over the angle, and a wrong w moves the foot by no more than rounding, as v follows it.
+  void foot_on_sliver(const Vector<Dim, S>& ab, const Vector<Dim, S>& ac, const Vector<Dim, S>& ap) {
+    const S aa = ab.squaredNorm(), along_c = ab.dot(ac) / aa, along_p = ab.dot(ap) / aa;
+    const Vector<Dim, S> across_c = ac - along_c * ab, across_p = ap - along_p * ab;
+    const S width = across_c.squaredNorm();
+    if (!(width > S(0))) return nearest_border();
+    const S w = across_c.dot(across_p) / width, v = along_p - w * along_c;
+    if (!(v >= S(0) && w >= S(0) && v + w <= S(1))) return nearest_border();
+    foot(v, w);
+  }
+
+  /// The nearest point of a triangle's border.
   void nearest_border() {
     S least(-1);
     Closest<Dim, S> best;

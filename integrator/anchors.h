@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Anchors, the memory of friction. Friction that only stops slip lets bodies creep: each impulse is bounded by the
-// normal force at its time, and slip that it could not stop remains. So each rubbing pair has an anchor: the points
-// that were closest when it began to rub. It is pulled back to them as by a spring (Cundall and Strack, "A discrete
-// numerical model for granular assemblies", 1979), until that would take more than Coulomb's friction; then the anchor
-// is dragged along.
+// normal force at its time, and slip that it could not stop remains. So a pair whose slip has been stopped has an
+// anchor: the points that were closest then. It is pulled back to them as by a damped spring (Cundall and Strack, "A
+// discrete numerical model for granular assemblies", 1979), until that would take more than Coulomb's friction; then
+// the anchor is dragged along.
 //
-// An anchor begins when a layer with friction first acts on a pair. It lasts as long as layers act again, each time
-// within `life` of the previous time. It is a property of the motion, independent of certificates.
+// An anchor begins when friction first stops the slip of a pair. It lasts as long as layers act again, each time within
+// `life` of the previous time. It is a property of the motion, independent of certificates.
 //
 // integrator/contact_impulse.h computes the forces.
 #pragma once
@@ -37,15 +37,18 @@ struct Anchor {
 template <class S>
 class Anchors {
  public:
-  /// The anchor's weights, for a pair on which a layer acts at time t. A pair without an anchor gets one, at its
-  /// closest points.
-  std::array<S, 4>& renew(const certificates::Stencil& pair, const std::array<S, 4>& closest, double t, double life) {
+  /// The weights of the anchor of a pair on which a layer acts at time t, which now lasts longer. Null: it has none.
+  std::array<S, 4>* renew(const certificates::Stencil& pair, double t, double life) {
+    const auto found = all_.find(Key{pair.kind, pair.vertices});
+    if (found == all_.end() || found->second.until < t) return nullptr;
+    found->second.until = std::max(found->second.until, t + life);
+    return &found->second.weights;
+  }
+
+  /// Anchors a pair at its closest points. Precondition: it has no anchor that lasts.
+  void begin(const certificates::Stencil& pair, const std::array<S, 4>& closest, double t, double life) {
     if (all_.size() >= most_) forget(t);
-    const auto [found, is_new] = all_.try_emplace(Key{pair.kind, pair.vertices}, Held{closest, t});
-    Held& held = found->second;
-    if (!is_new && held.until < t) held = {closest, t};
-    held.until = std::max(held.until, t + life);
-    return held.weights;
+    all_[Key{pair.kind, pair.vertices}] = {closest, t + life};
   }
 
   /// The anchors that last beyond a time, in a fixed order.

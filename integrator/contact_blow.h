@@ -107,31 +107,55 @@ struct Grip {
   S most;                    ///< the greatest impulse, mu J_n [N s]
   S spring;                  ///< h r(l) [N s/m]
   S reach;                   ///< mu |g|: the distance from an anchor at which the spring's force is Coulomb's [m]
+  S step;                    ///< h [s]
   bool drags;                ///< drag an anchor that is farther than `reach`
-  std::array<S, 4>& anchor;  ///< its weights
+  std::array<S, 4>* anchor;  ///< its weights; null: the pair has none
 };
 
 /// The slide from the anchor to the closest points. Drags the anchor if needed.
 template <int Dim, class S>
 typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const certificates::Closest<Dim, S>& c,
-                                           std::span<const Vec<S, Dim>> x, Grip<S>& grip) {
+                                           std::span<const Vec<S, Dim>> x, const Grip<S>& grip) {
   using std::sqrt;
-  auto slide = sliding.solve(sliding.way_from(grip.anchor, x));
+  std::array<S, 4>& anchor = *grip.anchor;
+  auto slide = sliding.solve(sliding.way_from(anchor, x));
   if (!grip.drags) return slide;
   const S length = sqrt(sliding.squared(slide));
   if (!(length > grip.reach)) return slide;
   const S share = grip.reach / length;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    grip.anchor[i] = c.weights[i] + share * (grip.anchor[i] - c.weights[i]);
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) anchor[i] = c.weights[i] + share * (anchor[i] - c.weights[i]);
   for (S& part : slide) part *= share;
   return slide;
 }
 
-/// Kicks the pair's vertices, which the layer has pushed apart: against their slip, and back to their anchor.
+/// The impulse of friction that Coulomb's law does not bound yet. Without an anchor it stops the slip.
+///
+/// With one it is that of a spring with critical damping. If it stopped all slip here as well, it would spend its whole
+/// bound just after each kick of a force that presses the pair along, and later give less than the force: over many
+/// kicks the pair would creep by half the way that such a kick carries it.
+template <int Dim, class S>
+typename Sliding<Dim, S>::Slide unbounded_friction(const Sliding<Dim, S>& sliding,
+                                                   const certificates::Closest<Dim, S>& c,
+                                                   std::span<const Vec<S, Dim>> x, const Grip<S>& grip,
+                                                   const Slip<Dim, S>& s, const S& yield) {
+  using std::sqrt;
+  typename Sliding<Dim, S>::Slide z{S(0), S(0)};
+  S damped(1);  // the share of the slip's speed that is taken
+  if (grip.anchor != nullptr) {
+    z = slide_from<Dim, S>(sliding, c, x, grip);
+    for (S& part : z) part *= grip.spring;
+    damped = std::min<S>(S(1), S(2) * sqrt(grip.spring * grip.step * yield));
+  }
+  if (!(yield > S(0))) return z;
+  for (std::size_t k = 0; k < 2; ++k) z[k] += damped * s.rate[k] / yield;
+  return z;
+}
+
+/// Kicks the pair's vertices, which the layer has pushed apart: against their slip, and back to their anchor. Sets what
+/// friction did.
 template <std::size_t N, class S, int Dim, class Recorder>
 void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair, const certificates::Closest<Dim, S>& c,
-         Grip<S> grip, Friction<S, Dim, N>& friction) {
+         const Grip<S>& grip, Friction<S, Dim, N>& friction) {
   using std::sqrt;
   const auto x = each_of<N>(pair, [&](VertexId i) -> Vec<S, Dim> { return now.particles[i].at(now.t); });
   const auto v = each_of<N>(pair, [&](VertexId i) { return now.particles[i].v; });
@@ -141,11 +165,7 @@ void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
   if (!sliding.possible()) return;
   const Slip<Dim, S> s = slip<Dim, S>(sliding, v);
   const S yield = yielding<Dim, S>(s, inverse_masses);
-  auto z = slide_from<Dim, S>(sliding, c, x, grip);
-  for (std::size_t k = 0; k < 2; ++k) {
-    z[k] *= grip.spring;
-    if (yield > S(0)) z[k] += s.rate[k] / yield;
-  }
+  auto z = unbounded_friction<Dim, S>(sliding, c, x, grip, s, yield);
   const S magnitude = sqrt(sliding.squared(z));
   if (!(magnitude > S(0))) return;
   friction.sticks = !(grip.most < magnitude);
@@ -236,11 +256,15 @@ template <std::size_t N, class S, int Dim, class Recorder>
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
-    std::array<S, 4>& anchor = anchors.renew(pair, closest.weights, now.t, layer.anchor_life);
-    const Grip<S> grip{S(layer.friction) * strength.rubbing * push, strength.rubbing * spring, S(-layer.friction) * g,
-                       layer.drags, anchor};
+    const Grip<S> grip{S(layer.friction) * strength.rubbing * push,
+                       strength.rubbing * spring,
+                       S(-layer.friction) * g,
+                       S(h),
+                       layer.drags,
+                       anchors.renew(pair, now.t, layer.anchor_life)};
     rub<N>(now, pair, closest, grip, friction);
     blow.course.sticks = friction.sticks;
+    if (friction.sticks && grip.anchor == nullptr) anchors.begin(pair, closest.weights, now.t, layer.anchor_life);
     given.friction = &friction;
   }
   book_pair(now, pair, approach, given, account);

@@ -9,7 +9,7 @@ namespace noli {
 namespace {
 
 constexpr std::string_view letters = "noli row";
-constexpr std::uint64_t version = 6;
+constexpr std::uint64_t version = 7;
 constexpr std::size_t beginning = letters.size() + sizeof(version);
 
 /// Calls f on each number of a layer, in order.
@@ -150,10 +150,10 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
 std::string not_a_row(std::string_view bytes) {
   if (bytes.empty()) return "a repair has no energies; expected a run of `noli simulate`";
   if (bytes.size() < beginning || !bytes.starts_with(letters)) {
-    return "its series is not a row of version 6, so an earlier Noli wrote it; expected a run of this version";
+    return "its series is not a row of version 7, so an earlier Noli wrote it; expected a run of this version";
   }
   const auto found = get<std::uint64_t>(bytes.data() + letters.size());
-  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 6";
+  return found == version ? "" : "its series is of version " + std::to_string(found) + "; expected version 7";
 }
 
 WindowState decode_state(std::string_view bytes) {

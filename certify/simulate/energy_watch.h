@@ -14,12 +14,13 @@
 // Asynchronous variational integrators conserve a nearby energy and not this one (Harmon et al. 2009, section 3), so B
 // fluctuates. It has gone astray if it is off by more than a twentieth of the scale in either direction.
 //
-// If restitution takes energy, forces that press on layers are booked for energy that the layers take back before the
-// next kick (docs/contact.md, section 6): restitution and damping are booked for more than bodies have lost. B is then
-// K + V less only what scripts gave, and has gone astray only if it is above its beginning.
+// Forces that press on layers are booked for energy that is taken back before their next kick (docs/contact.md, section
+// 6). Where layers act, what takes it may be restitution, damping or friction, which are then booked for more than
+// bodies have lost. If they took energy, B is therefore K + V less only what scripts gave, and has gone astray only if
+// it is above its beginning.
 //
-// Only the ends of windows are checked. If restitution takes energy, energy that steps create goes unnoticed as long as
-// damping, friction and restitution take more.
+// Only the ends of windows are checked. Where layers act, energy that steps create goes unnoticed as long as damping,
+// friction and restitution take more.
 #pragma once
 
 #include <array>
@@ -61,7 +62,7 @@ class EnergyWatch {
   double integration_ = 0;
   std::array<double, force_kinds> damping_{}, least_damping_{};  ///< work of damping so far, and its least
   double dissipated_ = 0;                                        ///< work of damping, friction and restitution
-  double restitution_ = 0;
+  bool contact_ = false;      ///< a layer has acted
   double moved_ = 0;          ///< everything given, in magnitude
   Farthest either_way_, up_;  ///< of the two forms of B
 };

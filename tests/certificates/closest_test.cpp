@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace noli::certificates {
@@ -97,6 +100,22 @@ TEST(Closest, TheGradientOfTheDistanceIsItsWeightsTimesTheDirection) {
           x[k][axis] = kept;
           EXPECT_NEAR((above - below) / (2 * h), c.weights[k] * c.r[axis] / c.distance(), 1e-4);
         }
+      }
+    }
+  }
+}
+
+/// Above faces so thin that their barycentric products cancel.
+TEST(Closest, AVertexAboveASliverIsAsFarAsItIsHigh) {
+  std::mt19937_64 random(3);
+  for (int exponent = 2; exponent <= 14; ++exponent) {
+    const double half = std::pow(10, -exponent);
+    for (const double apex : {-1.0, 0.2, 1.0}) {
+      for (int i = 0; i < 100; ++i) {
+        const V3 above(1.8 * unit(random) - 0.9, -0.95 * half, 0.03);
+        std::array<V3, 4> x{above, V3(-1, -half, 0), V3(1, -half, 0), V3(apex, half, 0)};
+        std::rotate(x.begin() + 1, x.begin() + 1 + i % 3, x.end());
+        EXPECT_NEAR(closest<3>(FeaturePair::vertex_face, std::span<const V3>(x)).distance(), 0.03, 1e-9) << exponent;
       }
     }
   }

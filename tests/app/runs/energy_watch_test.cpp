@@ -22,9 +22,14 @@ SeriesRow damped(SeriesRow row, double work) {
   return row;
 }
 
+SeriesRow struck(SeriesRow row) {
+  row.events[static_cast<std::size_t>(ForceKind::contact)] = 1;
+  return row;
+}
+
 SeriesRow with_restitution(SeriesRow row, double work) {
   row.restitution_work = work;
-  return row;
+  return struck(row);
 }
 
 SeriesRow pushed(SeriesRow row, double work) {
@@ -96,6 +101,18 @@ TEST(EnergyWatch, RoundingMayMakeALittle) {
   EXPECT_FALSE(watched.astray());
   watched.add(row(2, 1e-9, 1e-9));
   EXPECT_TRUE(watched.astray());
+}
+
+/// A body that rests on layers: its forces' steps give energy with each kick, which damping and friction take before
+/// the next one.
+TEST(EnergyWatch, WhereLayersActAndDampingTakesEnergyItMayFallAndNotRise) {
+  EXPECT_FALSE(watch({struck(damped(row(1, 1, 2), -2))}).astray());
+  EXPECT_TRUE(watch({damped(row(1, 1, 2), -2)}).astray()) << "without contact";
+  EXPECT_TRUE(watch({struck(row(1, 1, -0.5))}).astray()) << "without damping";
+  const auto found = watch({struck(damped(row(1, 4, 3), -1))}).astray();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->may_fall);
+  EXPECT_EQ(found->there - found->begin, 2);
 }
 
 TEST(EnergyWatch, WhereRestitutionTakesEnergyItMayFallAndNotRise) {
