@@ -33,6 +33,7 @@ void EnergyWatch::add(const SeriesRow& row) {
     created += damping_[k] - least_damping_[k];
   }
   dissipated_ += damping + row.restitution_work;
+  restitution_ += row.restitution_work;
   contact_ = contact_ || row.events[static_cast<std::size_t>(ForceKind::contact)] > 0;
   moved_ += std::abs(damping) + std::abs(held) + std::abs(row.restitution_work);
   greatest_ = std::max(greatest_, without_gravity(row));
@@ -41,7 +42,7 @@ void EnergyWatch::add(const SeriesRow& row) {
 }
 
 std::optional<EnergyAstray> EnergyWatch::astray() const {
-  const bool may_fall = contact_ && dissipated_ < 0;
+  const bool may_fall = restitution_ < 0 || (stable_ && contact_ && dissipated_ < 0);
   const Farthest& farthest = may_fall ? up_ : either_way_;
   const double scale = greatest_ + moved_ + rounding_;
   if (farthest.off <= most * scale && std::isfinite(farthest.off)) return std::nullopt;

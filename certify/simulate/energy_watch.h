@@ -17,10 +17,11 @@
 // Forces that press on layers are booked for energy that is taken back before their next kick (docs/contact.md, section
 // 6). Where layers act, what takes it may be restitution, damping or friction, which are then booked for more than
 // bodies have lost. If they took energy, B is therefore K + V less only what scripts gave, and has gone astray only if
-// it is above its beginning.
+// it is above its beginning. If the scene allows steps above their limits, this holds for restitution only: damping and
+// friction may then take what unstable steps create.
 //
-// Only the ends of windows are checked. Where layers act, energy that steps create goes unnoticed as long as damping,
-// friction and restitution take more.
+// Only the ends of windows are checked. Where B is that of layers, energy that steps create goes unnoticed as long as
+// damping, friction and restitution take more.
 #pragma once
 
 #include <array>
@@ -36,8 +37,10 @@ class EnergyWatch {
   /// How far B may be off, as a share of the scale.
   static constexpr double most = 0.05;
 
-  /// `kinetic`: K at the beginning [J]. `rounding`: the energy that rounding may create [J].
-  explicit EnergyWatch(double kinetic = 0, double rounding = 0) : rounding_(rounding), greatest_(kinetic) {}
+  /// `kinetic`: K at the beginning [J]. `rounding`: the energy that rounding may create [J]. `stable`: no step is above
+  /// its limit.
+  explicit EnergyWatch(double kinetic = 0, double rounding = 0, bool stable = true)
+      : rounding_(rounding), stable_(stable), greatest_(kinetic) {}
 
   void add(const SeriesRow& row);
 
@@ -57,11 +60,13 @@ class EnergyWatch {
   };
 
   double rounding_;
+  bool stable_;
   double greatest_;
   std::optional<double> begin_;  ///< K + V
   double integration_ = 0;
   std::array<double, force_kinds> damping_{}, least_damping_{};  ///< work of damping so far, and its least
   double dissipated_ = 0;                                        ///< work of damping, friction and restitution
+  double restitution_ = 0;
   bool contact_ = false;      ///< a layer has acted
   double moved_ = 0;          ///< everything given, in magnitude
   Farthest either_way_, up_;  ///< of the two forms of B

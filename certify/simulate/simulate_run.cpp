@@ -77,7 +77,7 @@ class CertifiedRun {
         folder_(request.run),
         frame_rate_(scene.frame_rate),
         integrator_(built_.model, scene_.labels, activity_),
-        watch_(kinetic_energy<Dim>(built_.model), energy_of_rounding<Dim>(built_.model)) {
+        watch_(kinetic_energy<Dim>(built_.model), energy_of_rounding<Dim>(built_.model), !scene.allow_unstable) {
     folder_.lock();
     outcome_.title = scene.title;
     outcome_.dimension = Dim;

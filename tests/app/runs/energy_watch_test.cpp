@@ -109,6 +109,9 @@ TEST(EnergyWatch, WhereLayersActAndDampingTakesEnergyItMayFallAndNotRise) {
   EXPECT_FALSE(watch({struck(damped(row(1, 1, 2), -2))}).astray());
   EXPECT_TRUE(watch({damped(row(1, 1, 2), -2)}).astray()) << "without contact";
   EXPECT_TRUE(watch({struck(row(1, 1, -0.5))}).astray()) << "without damping";
+  EnergyWatch unstable(0, 0, false);
+  unstable.add(struck(damped(row(1, 1, 2), -2)));
+  EXPECT_TRUE(unstable.astray()) << "where steps may be too long";
   const auto found = watch({struck(damped(row(1, 4, 3), -1))}).astray();
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->may_fall);
