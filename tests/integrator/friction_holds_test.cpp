@@ -30,9 +30,8 @@ BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = fals
   const std::string count = std::to_string(cells);
   return built(R"({"name": "box", "mesh": {"box": {"size": [0.2, 0.2, 0.1], "cells": [2, 2, 1]}},
                    "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 5}, "translate": [-0.3, -0.3, 0.0595]}, )" +
-                   elastic + R"(}, {"name": "plane", "mesh": {"grid": {"size": [4, 2], "cells": [)" +
-                   count + ", " + count + R"(]}}, "transform": {"translate": [1, 0, 0]}, "pin": ["all"], )" + rigid +
-                   "}",
+                   elastic + R"(}, {"name": "plane", "mesh": {"grid": {"size": [4, 2], "cells": [)" + count + ", " +
+                   count + R"(]}}, "transform": {"translate": [1, 0, 0]}, "pin": ["all"], )" + rigid + "}",
                R"("duration": 4, "gravity": [4.387165, 0, -8.77433],
                   "contact": {"thickness": 0.01, "stiffness": 2000, "restitution": 0.25, "friction": )" +
                    std::to_string(friction) + R"(, "inclusion_exclusion": )" +
@@ -127,7 +126,8 @@ TEST(FrictionHolds, AnImpactStopsSlipAndDoesNotTurnIt) {
            "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
           {"mesh": {"chain": {"points": [[-2, 0], [4, 0]], "segments": 1}}, "pin": ["all"],
            "material": {"edge_stiffness": 0, "mass_per_length": 1}}],
-        "contact": {"thickness": 0.01, "friction": )" + std::to_string(friction) + "}}";
+        "contact": {"thickness": 0.01, "friction": )" +
+                             std::to_string(friction) + "}}";
     const BuiltScene<2> scene = build_model<2>(parse_scene(text, "friction", Form::full));
     Simulation<double, 2> simulation(scene.model);
     test::run(simulation, 20);
