@@ -10,7 +10,8 @@
 //   slide     a change of the parameters of the closest points, or its rate. Rigid motions do not change them, so
 //             forces along their gradients change neither momentum nor angular momentum (see Sliding)
 //   friction  impulse z along slides, of magnitude mu J_n at most: it stops the slip of a pair without an anchor, and
-//             pulls others back to their anchor (integrator/anchors.h) with h r(l) times the slide from there
+//             pulls others back to their anchor (integrator/anchors.h) with h r(l) times the slide from there,
+//             critically damped
 //
 // S is double; in audits also multiprecision numbers.
 #pragma once
