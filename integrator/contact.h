@@ -303,7 +303,7 @@ class Contact {
     const ContactMaterial& m = settings_.materials[material];
     const LayerSchedule& s = settings_.schedule;
     const LayerTerms terms{
-        layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction, 1.5 * m.step, l == 1};
+        layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction, 1.5 * m.step, l};
     return {{layer_step(m, s, l), 1}, terms, {}};
   }
 

@@ -32,7 +32,7 @@ struct LayerTerms {
   double restitution = 1;  ///< e
   double friction = 0;     ///< mu
   double anchor_life = 0;  ///< [s] (integrator/anchors.h)
-  bool drags = false;      ///< this is the material's first layer, which drags anchors
+  std::uint32_t layer = 1;  ///< l
 };
 
 struct Course {
@@ -108,18 +108,16 @@ struct Grip {
   S spring;                  ///< h r(l) [N s/m]
   S reach;                   ///< mu |g|: the distance from an anchor at which the spring's force is Coulomb's [m]
   S step;                    ///< h [s]
-  bool drags;                ///< drag an anchor that is farther than `reach`
   std::array<S, 4>* anchor;  ///< its weights; null: the pair has none
 };
 
-/// The slide from the anchor to the closest points. Drags the anchor if needed.
+/// The slide from the anchor to the closest points, after an anchor farther away than `reach` was dragged.
 template <int Dim, class S>
 typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const certificates::Closest<Dim, S>& c,
                                            std::span<const Vec<S, Dim>> x, const Grip<S>& grip) {
   using std::sqrt;
   std::array<S, 4>& anchor = *grip.anchor;
   auto slide = sliding.solve(sliding.way_from(anchor, x));
-  if (!grip.drags) return slide;
   const S length = sqrt(sliding.squared(slide));
   if (!(length > grip.reach)) return slide;
   const S share = grip.reach / length;
@@ -260,11 +258,10 @@ template <std::size_t N, class S, int Dim, class Recorder>
                        strength.rubbing * spring,
                        S(-layer.friction) * g,
                        S(h),
-                       layer.drags,
-                       anchors.renew(pair, now.t, layer.anchor_life)};
+                       anchors.renew(layer.layer, pair, now.t, layer.anchor_life)};
     rub<N>(now, pair, closest, grip, friction);
     blow.course.sticks = friction.sticks;
-    if (friction.sticks && grip.anchor == nullptr) anchors.begin(pair, closest.weights, now.t, layer.anchor_life);
+    if (friction.sticks && grip.anchor == nullptr) anchors.begin(layer.layer, pair, closest.weights, now.t, layer.anchor_life);
     given.friction = &friction;
   }
   book_pair(now, pair, approach, given, account);

@@ -68,7 +68,7 @@ class Numbers {
 
   std::uint64_t below(std::uint64_t end) {
     const auto n = take<std::uint64_t>();
-    if (n >= end) throw std::invalid_argument("a vertex or a pair of features that does not exist");
+    if (n >= end) throw std::invalid_argument("a vertex, a layer, or a pair of features that does not exist");
     return n;
   }
 
@@ -104,8 +104,9 @@ StepHistogram take_steps(Numbers& take, double smallest) {
 }
 
 std::vector<integrator::Anchor<double>> take_anchors(Numbers& take) {
-  auto anchors = take_list<integrator::Anchor<double>>(take, 10);
+  auto anchors = take_list<integrator::Anchor<double>>(take, 11);
   for (auto& anchor : anchors) {
+    take(anchor.layer);
     take(anchor.kind);
     for (VertexId& v : anchor.vertices) take(v);
     for (double& weight : anchor.weights) take(weight);
@@ -121,6 +122,7 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
   put(bytes, version);
   put(bytes, static_cast<std::uint64_t>(anchors.size()));
   for (const auto& anchor : anchors) {
+    put(bytes, std::uint64_t{anchor.layer});
     put(bytes, static_cast<std::uint64_t>(anchor.kind));
     for (const VertexId v : anchor.vertices) put(bytes, static_cast<std::uint64_t>(v));
     for (const double weight : anchor.weights) put(bytes, weight);

@@ -157,6 +157,7 @@ void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& sc
 void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window,
                    const RunScene& scene) {
   for (const auto& anchor : anchors) {
+    require(anchor.layer > 0, "an anchor of layer 0; expected one from 1 on");
     check_pair("an anchor", anchor.kind, anchor.vertices, scene);
     for (const double weight : anchor.weights) {
       require(std::abs(weight) <= 1, "an anchor with the weight {}; expected one from -1 to 1", weight);

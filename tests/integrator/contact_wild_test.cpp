@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests random small scenes with extreme parameters. A window may only touch because the steps of contact are too long,
-// never because certificates missed a layer.
+// never because certificates missed a layer. Friction gives back at most the energy that it has taken. (While one anchor
+// served all layers of a pair, it gave more in four of these scenes, by up to a tenth of the energy at time 0.)
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -71,6 +72,7 @@ void try_scene(std::uint64_t seed, bool inclusion_exclusion, Tally& tally) {
   EXPECT_GE(ending.impulses, 100U);
   EXPECT_FALSE(ending.long_winded);
   EXPECT_FALSE(ending.not_finite);
+  EXPECT_EQ(ending.rubbing, 0) << "friction has given energy";
   if (ending.limit) expect_sane(*ending.limit, wild.model, ending.windows);
   if (ending.touched) expect_no_fault_of_certificates(wild.model, ending);
   if (!done) {

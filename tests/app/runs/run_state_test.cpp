@@ -170,12 +170,13 @@ TEST_F(RunState, EnergiesMayBeBeyondAllDoubles) {
 
 TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
   using Anchor = integrator::Anchor<double>;
-  const Anchor good{FeaturePair::vertex_edge, {0, 1, 2, 0}, {1, -0.5, -0.5, 0}, 0.3125};
+  const Anchor good{1, FeaturePair::vertex_edge, {0, 1, 2, 0}, {1, -0.5, -0.5, 0}, 0.3125};
   struct Bad {
     void (*change)(Anchor&);
     std::string message;
   };
   const std::vector<Bad> all{
+      {[](Anchor& a) { a.layer = 0; }, "an anchor of layer 0; expected one from 1 on"},
       {[](Anchor& a) { a.kind = FeaturePair::vertex_face; },
        "an anchor between a pair of features that 2D does not have"},
       {[](Anchor& a) { a.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
