@@ -168,16 +168,32 @@ void limit_breakpoints(const Scene& scene, Model<double, Dim>& model) {
 
 // --- Scripts ---------------------------------------------------------------------------------------------------------
 
-/// Positions of all vertices of a body, frame by frame.
-std::vector<std::vector<Position>> load_frames(const Scene& scene, const ScriptFrames& frames, std::size_t vertices,
+/// A mesh's cells in an order that does not depend on how they are listed, nor on how they are turned.
+Mesh sorted(Mesh mesh) {
+  for (auto& face : mesh.faces) std::ranges::sort(face);
+  for (auto& edge : mesh.edges) std::ranges::sort(edge);
+  std::ranges::sort(mesh.faces);
+  std::ranges::sort(mesh.edges);
+  std::ranges::sort(mesh.points);
+  return mesh;
+}
+
+/// Positions of all vertices of a body, frame by frame. A frame may have no cells, or those of the body.
+std::vector<std::vector<Position>> load_frames(const Scene& scene, const ScriptFrames& frames, const Mesh& body,
                                                const Field& files) {
+  const Mesh expected = sorted(body);
   std::vector<std::vector<Position>> loaded;
   for (std::size_t k = 0; k < frames.files.size(); ++k) {
-    const std::vector<Position>& x = loaded.emplace_back(load_frame(scene, frames.files[k], files[k]).positions);
-    if (x.size() != vertices) {
-      files[k].fail(fmt::format("expected as many vertices as the body has, {}, found {}", vertices, x.size()));
+    Frame frame = load_frame(scene, frames.files[k], files[k]);
+    if (frame.mesh.vertex_count != body.vertex_count) {
+      files[k].fail(fmt::format("expected as many vertices as the body has, {}, found {}", body.vertex_count,
+                                frame.mesh.vertex_count));
     }
-    require_plane(scene, x, files[k]);
+    if (frame.mesh.cell_count() > 0 && sorted(std::move(frame.mesh)) != expected) {
+      files[k].fail("expected the faces, edges and points of the body, or none, found others");
+    }
+    require_plane(scene, frame.positions, files[k]);
+    loaded.push_back(std::move(frame.positions));
   }
   return loaded;
 }
@@ -212,15 +228,15 @@ void follow(const Scene& scene, std::size_t index, const BodyMesh& body, VertexI
   } else {
     const auto& frames = std::get<ScriptFrames>(motion);
     const Field at = field_of(scene)["scripts"][index]["frames"];
-    const auto loaded = load_frames(scene, frames, body.shape.mesh.vertex_count, at["files"]);
+    const auto loaded = load_frames(scene, frames, body.shape.mesh, at["files"]);
     add(frame_times(frames, at), [&](VertexId i, std::size_t k) { return cut<Dim>(to_vec(loaded[k][i])); });
   }
 }
 
 /// Adds the scripts of a scene, and changes start positions and velocities: a scripted vertex begins where its path
 /// does, and its start velocity is zero here, as its path determines it. Fills in built[i].scripted. Throws InputError:
-/// vertices that do not exist, are pinned, or have another script; frames that do not load or have another number of
-/// vertices.
+/// vertices that do not exist, are pinned, or have another script; frames that do not load or have other vertices
+/// or cells.
 template <int Dim>
 void add_scripts(const Scene& scene, const std::vector<BodyMesh>& bodies, std::vector<BuiltBody>& built,
                  Model<double, Dim>& model) {

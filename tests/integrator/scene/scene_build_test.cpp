@@ -440,6 +440,14 @@ TEST(Scripts, FramesGivePositions) {
     return build_problem(changed(scene, std::string("/scripts/0/frames/") + pointer, value), folder / "s.json");
   };
   EXPECT_EQ(problem("files/1", "four.obj"), file + "files/1: expected as many vertices as the body has, 3, found 4");
+  folder.write("turned.obj", "v 0 0 1\nv 1 0 2\nv 0 1 3\nf 3 2 1\n");
+  folder.write("bare.obj", "v 0 0 1\nv 1 0 2\nv 0 1 3\n");
+  folder.write("lines.obj", "v 0 0 1\nv 1 0 2\nv 0 1 3\nl 1 2 3\n");
+  for (const char* good : {"turned.obj", "bare.obj"}) {
+    EXPECT_EQ(built(changed(scene, "/scripts/0/frames/files/1", good), folder / "s.json").model.scripts.size(), 3u);
+  }
+  EXPECT_EQ(problem("files/1", "lines.obj"),
+            file + "files/1: expected the faces, edges and points of the body, or none, found others");
   EXPECT_EQ(problem("files/0", "no.obj").substr(0, file.size() + 37), file + "files/0: expected a mesh that loads: ");
   Json fast = changed(scene, "/scripts/0/frames/rate", 1e9);
   fast["scripts"][0]["frames"]["from"] = 1e9;
