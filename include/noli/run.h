@@ -40,7 +40,7 @@
 
 namespace noli {
 
-/// Kinds of forces, in the order in which events of one time happen (docs/contact.md).
+/// Kinds of forces, in the order in which events of one time happen (integrator/simulation.h).
 enum class ForceKind : std::uint8_t { gravity, edge_spring, membrane, hinge, turning, contact };
 inline constexpr std::size_t force_kinds = 6;
 

@@ -18,7 +18,7 @@ struct BoundingBox {
 };
 
 struct FileInfo {
-  std::string format;       ///< "PLY ASCII", "PLY binary little-endian", "PLY binary big-endian" or "OBJ"
+  std::string format;       ///< "PLY ASCII", "PLY binary little-endian", "PLY binary big-endian", "OBJ" or "VTK"
   std::string number_type;  ///< of the coordinates in the file: "float64", "float32", ..., "decimal" (OBJ); several
                             ///< joined by '/'
   std::size_t vertices = 0;
@@ -33,7 +33,7 @@ struct FileInfo {
   bool planar = false;                  ///< all z are equal
 };
 
-/// Reads a PLY or OBJ file and summarises it. Throws InputError as read_frame does.
+/// Reads a file of a mesh and summarises it. Throws InputError as read_frame does.
 FileInfo describe_file(const std::filesystem::path& path);
 
 /// The same for a frame in memory; format and number_type stay empty.

@@ -269,7 +269,7 @@ TEST_F(FuzzLibraryMotions, RefusesWhatCannotBe) {
 }
 
 TEST_F(FuzzLibraryMotions, TheWorkedExampleIsTrue) {
-  const auto commands = worked_example("docs/audit/fuzz-trajectories.md", "## Somebody else's library");
+  const auto commands = worked_example("docs/audit/fuzz-trajectories.md", "## Another library");
   ASSERT_GE(commands.size(), 3u);
   expect_worked_example(commands, {{"build/release/app/noli", NOLI_COMMAND},
                                    {"build/release/audit/ccd/plugins", NOLI_CCD_PLUGINS},
