@@ -27,11 +27,11 @@ namespace noli::integrator {
 
 /// The parameters of a layer, the same for all its pairs.
 struct LayerTerms {
-  double thickness = 0;    ///< eta(l) [m]
-  double stiffness = 0;    ///< r(l) [N/m]
-  double restitution = 1;  ///< e
-  double friction = 0;     ///< mu
-  double anchor_life = 0;  ///< [s] (integrator/anchors.h)
+  double thickness = 0;     ///< eta(l) [m]
+  double stiffness = 0;     ///< r(l) [N/m]
+  double restitution = 1;   ///< e
+  double friction = 0;      ///< mu
+  double anchor_life = 0;   ///< [s] (integrator/anchors.h)
   std::uint32_t layer = 1;  ///< l
 };
 
@@ -254,14 +254,12 @@ template <std::size_t N, class S, int Dim, class Recorder>
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
-    const Grip<S> grip{S(layer.friction) * strength.rubbing * push,
-                       strength.rubbing * spring,
-                       S(-layer.friction) * g,
-                       S(h),
-                       anchors.renew(layer.layer, pair, now.t, layer.anchor_life)};
+    const Grip<S> grip{S(layer.friction) * strength.rubbing * push, strength.rubbing * spring, S(-layer.friction) * g,
+                       S(h), anchors.renew(layer.layer, pair, now.t, layer.anchor_life)};
     rub<N>(now, pair, closest, grip, friction);
     blow.course.sticks = friction.sticks;
-    if (friction.sticks && grip.anchor == nullptr) anchors.begin(layer.layer, pair, closest.weights, now.t, layer.anchor_life);
+    if (friction.sticks && grip.anchor == nullptr)
+      anchors.begin(layer.layer, pair, closest.weights, now.t, layer.anchor_life);
     given.friction = &friction;
   }
   book_pair(now, pair, approach, given, account);
