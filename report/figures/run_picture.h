@@ -37,7 +37,7 @@ auto with_asked_view(const Function& function) {
   try {
     return function();
   } catch (const std::invalid_argument&) {
-    throw UsageError("--from: expected a direction other than zero");
+    throw UsageError("--from: expected a finite direction other than zero");
   }
 }
 

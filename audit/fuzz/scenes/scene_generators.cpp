@@ -253,7 +253,7 @@ GeneratedScene invalid(Random& random) {
 
 constexpr std::array<SceneGenerator, 12> generators = {{
     {"plain", "nothing is extreme", plain},
-    {"stiff", "stiffness from 2^-10 to 2^30 N/m, each body up to 2^20 stiffer or softer", stiff},
+    {"stiff", "lowest body from 2^-10 to 2^31 N/m, each other up to 2^21 times stiffer or softer", stiff},
     {"heavy", "masses 2^15 apart, from body to body", heavy},
     {"fast", "speeds up to 2^30 sizes a second", fast},
     {"thin", "layers of contact down to 2^-40 of a body", thin},
