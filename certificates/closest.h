@@ -148,10 +148,10 @@ class ClosestFinder {
     slide(3, 1);
   }
 
-  /// The foot of the vertex on a face whose angle at corner 1 is below 1e-4. The barycentric products cancel there:
-  /// their error, in units of the length, is that of rounding over the angle squared. Distances across ab lose only
-  /// rounding over the angle, and a wrong w moves the foot by no more than rounding, as v follows it. Where ab is 0,
-  /// the NaNs that follow lead to the border.
+  /// The foot of the vertex on a face whose angle at corner 1 is within 1e-4 of 0 or of a straight one. The barycentric
+  /// products cancel there: their error, in units of the length, is that of rounding over the angle squared. Distances
+  /// across ab lose only rounding over the angle, and a wrong w moves the foot by no more than rounding, as v follows
+  /// it. Where ab is 0, the NaNs that follow lead to the border.
   void foot_on_sliver(const Vector<Dim, S>& ab, const Vector<Dim, S>& ac, const Vector<Dim, S>& ap) {
     const S aa = ab.squaredNorm(), along_c = ab.dot(ac) / aa, along_p = ab.dot(ap) / aa;
     const Vector<Dim, S> across_c = ac - along_c * ab, across_p = ap - along_p * ab;

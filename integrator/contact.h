@@ -41,8 +41,6 @@ namespace noli::integrator {
 /// A layer that fires, for recorders with layer_fires(), which precedes examined() for each of its pairs.
 struct Firing {
   double time, h;  ///< h: of this kick, half of the layer's step when a run begins
-  std::uint16_t material;
-  std::uint32_t layer;
   LayerTerms terms;
 };
 
@@ -302,9 +300,10 @@ class Contact {
   Layer make_layer(std::uint16_t material, std::uint32_t l) const {
     const ContactMaterial& m = settings_.materials[material];
     const LayerSchedule& s = settings_.schedule;
+    const double step = layer_step(m, s, l);
     const LayerTerms terms{
-        layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction, 1.5 * m.step, l};
-    return {{layer_step(m, s, l), 1}, terms, {}};
+        layer_thickness(m, s, l), layer_stiffness(m, s, l), m.restitution, m.friction, 1.5 * step, material, l};
+    return {{step, 1}, terms, {}};
   }
 
   template <class Recorder>
@@ -319,8 +318,8 @@ class Contact {
     const auto firing = layers_[material][l - 1].pairs.in_order();  // as they are now, despite later changes
     now.record.reserve(4 * firing.size());
     const LayerTerms terms = terms_of(material, l);
-    if constexpr (requires { now.record.layer_fires(Firing{t, h, material, l, terms}); }) {
-      now.record.layer_fires(Firing{t, h, material, l, terms});
+    if constexpr (requires { now.record.layer_fires(Firing{t, h, terms}); }) {
+      now.record.layer_fires(Firing{t, h, terms});
     }
     Account<double, Dim>& account = books.contact[material];
     std::size_t acted = 0;

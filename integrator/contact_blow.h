@@ -27,18 +27,19 @@ namespace noli::integrator {
 
 /// The parameters of a layer, the same for all its pairs.
 struct LayerTerms {
-  double thickness = 0;     ///< eta(l) [m]
-  double stiffness = 0;     ///< r(l) [N/m]
-  double restitution = 1;   ///< e
-  double friction = 0;      ///< mu
-  double anchor_life = 0;   ///< [s] (integrator/anchors.h)
+  double thickness = 0;    ///< eta(l) [m]
+  double stiffness = 0;    ///< r(l) [N/m]
+  double restitution = 1;  ///< e
+  double friction = 0;     ///< mu
+  double anchor_life = 0;  ///< [s] (integrator/anchors.h)
+  std::uint16_t material = 0;
   std::uint32_t layer = 1;  ///< l
 };
 
 struct Course {
   bool acts = false;         ///< g < 0
   bool parts = false;        ///< the closest points part, so that restitution counts
-  bool sticks = false;       ///< friction is not bounded: the slip ends, the anchor pulls
+  bool sticks = false;       ///< friction stays below Coulomb's bound
   std::uint8_t corners = 0;  ///< bit i: vertex i has a nonzero weight in the closest points
 
   friend bool operator==(const Course&, const Course&) = default;
@@ -90,7 +91,7 @@ template <class S, int Dim, std::size_t N>
 struct Friction {
   Impulses<Dim, S> impulses;          ///< all zero if nothing slips
   std::array<Vec<S, Dim>, N> before;  ///< velocities before the layer fired
-  bool sticks = true;                 ///< it is not bounded
+  bool sticks = false;                ///< the pair can slip, and friction stays below Coulomb's bound
 };
 
 /// How a pair is struck that is only a part of a contact (integrator/inclusion_exclusion.h).
@@ -104,7 +105,7 @@ struct Strength {
 /// The bound of friction, and the pull of an anchor.
 template <class S>
 struct Grip {
-  S most;                    ///< the greatest impulse, mu J_n [N s]
+  S bound;                   ///< the greatest impulse, mu J_n [N s]
   S spring;                  ///< h r(l) [N s/m]
   S reach;                   ///< mu |g|: the distance from an anchor at which the spring's force is Coulomb's [m]
   S step;                    ///< h [s]
@@ -126,7 +127,7 @@ typename Sliding<Dim, S>::Slide slide_from(const Sliding<Dim, S>& sliding, const
   return slide;
 }
 
-/// The impulse of friction that Coulomb's law does not bound yet. Without an anchor it stops the slip.
+/// The impulse of friction before Coulomb's bound is applied. Without an anchor it stops the slip.
 ///
 /// With one it is that of a spring with critical damping. If it stopped all slip here as well, it would spend its whole
 /// bound just after each kick of a force that presses the pair along, and later give less than the force: over many
@@ -165,10 +166,10 @@ void rub(const Kicked<S, Dim, Recorder>& now, const certificates::Stencil& pair,
   const S yield = yielding<Dim, S>(s, inverse_masses);
   auto z = unbounded_friction<Dim, S>(sliding, c, x, grip, s, yield);
   const S magnitude = sqrt(sliding.squared(z));
+  friction.sticks = !(grip.bound < magnitude);
   if (!(magnitude > S(0))) return;
-  friction.sticks = !(grip.most < magnitude);
   if (!friction.sticks) {
-    for (S& part : z) part *= grip.most / magnitude;
+    for (S& part : z) part *= grip.bound / magnitude;
   }
   friction.impulses = sliding.against(z);
   for (std::size_t i = 0; i < N; ++i) kick_vertex<S, Dim>(now, pair.vertices[i], friction.impulses[i]);
@@ -254,12 +255,14 @@ template <std::size_t N, class S, int Dim, class Recorder>
     kick_vertex<S, Dim>(now, pair.vertices[i], normal_impulse<Dim, S>(closest, given.normal, push, i));
   }
   if (rubs) {
-    const Grip<S> grip{S(layer.friction) * strength.rubbing * push, strength.rubbing * spring, S(-layer.friction) * g,
-                       S(h), anchors.renew(layer.layer, pair, now.t, layer.anchor_life)};
+    const PairInLayer key{layer.material, layer.layer, pair.kind, pair.vertices};
+    std::array<S, 4>* const anchor = anchors.renew(key, now.t, layer.anchor_life);
+    const S bound = S(layer.friction) * strength.rubbing * push, reach = S(-layer.friction) * g;
+    const Grip<S> grip{bound, strength.rubbing * spring, reach, S(h), anchor};
     rub<N>(now, pair, closest, grip, friction);
     blow.course.sticks = friction.sticks;
-    if (friction.sticks && grip.anchor == nullptr)
-      anchors.begin(layer.layer, pair, closest.weights, now.t, layer.anchor_life);
+    const bool stopped = friction.sticks && blow.struck;
+    if (stopped && anchor == nullptr) anchors.begin(key, closest.weights, now.t, layer.anchor_life);
     given.friction = &friction;
   }
   book_pair(now, pair, approach, given, account);

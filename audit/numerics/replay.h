@@ -58,7 +58,7 @@ class Comparison : public integrator::Uncounted {
   void examined(const certificates::Stencil& pair, const integrator::Course& here) {
     const integrator::Course there = log_->examined()[next_examined_++].course;
     if (here == there) return;
-    const CourseChange change{firing_.time, pair, firing_.layer, there.acts};
+    const CourseChange change{firing_.time, pair, firing_.terms.layer, there.acts};
     if (here.acts != there.acts) return changes_.acts.add(change);
     if (here.corners != there.corners) changes_.corners.add(change);
     if (!here.acts) return;

@@ -60,7 +60,7 @@ class ReplayedContact {
     const integrator::Kicked<S, Dim, Recorder> now{particles_, record, firing.time, &scripts};
     record.layer_fires(firing);
     record.reserve(4 * (logged.end - logged.begin));
-    integrator::Account<S, Dim>& account = books.contact[firing.material];
+    integrator::Account<S, Dim>& account = books.contact[firing.terms.material];
     std::size_t acted = 0;
     pairs_.clear();
     for (const Examined& examined : log_->examined().subspan(logged.begin, logged.end - logged.begin)) {
@@ -76,7 +76,7 @@ class ReplayedContact {
           integrator::for_each_struck<S, Dim>(pair, closest, [this](VertexId v) { struck_.push_back(v); });
         });
     account.events += acted;
-    for (const VertexId i : struck_) falling.strike(i, firing.material, firing.time);
+    for (const VertexId i : struck_) falling.strike(i, firing.terms.material, firing.time);
     struck_.clear();
     return acted;
   }

@@ -52,7 +52,8 @@ class Numbers {
   void operator()(double& x) { x = take<double>(); }
   void operator()(std::uint64_t& n) { n = take<std::uint64_t>(); }
   void operator()(std::int64_t& n) { n = static_cast<std::int64_t>(take<std::uint64_t>()); }
-  void operator()(VertexId& v) { v = static_cast<VertexId>(below(std::uint64_t{1} << 32)); }
+  void operator()(std::uint16_t& n) { n = static_cast<std::uint16_t>(below(std::uint64_t{1} << 16)); }
+  void operator()(std::uint32_t& n) { n = static_cast<std::uint32_t>(below(std::uint64_t{1} << 32)); }
   void operator()(FeaturePair& pair) { pair = static_cast<FeaturePair>(below(all_feature_pairs.size())); }
 
   std::size_t left() const { return bytes_.size(); }
@@ -68,7 +69,8 @@ class Numbers {
 
   std::uint64_t below(std::uint64_t end) {
     const auto n = take<std::uint64_t>();
-    if (n >= end) throw std::invalid_argument("a vertex, a layer, or a pair of features that does not exist");
+    if (n >= end)
+      throw std::invalid_argument("a material, a layer, a vertex or a pair of features that does not exist");
     return n;
   }
 
@@ -104,11 +106,12 @@ StepHistogram take_steps(Numbers& take, double smallest) {
 }
 
 std::vector<integrator::Anchor<double>> take_anchors(Numbers& take) {
-  auto anchors = take_list<integrator::Anchor<double>>(take, 11);
+  auto anchors = take_list<integrator::Anchor<double>>(take, 12);
   for (auto& anchor : anchors) {
-    take(anchor.layer);
-    take(anchor.kind);
-    for (VertexId& v : anchor.vertices) take(v);
+    take(anchor.of.material);
+    take(anchor.of.layer);
+    take(anchor.of.kind);
+    for (VertexId& v : anchor.of.vertices) take(v);
     for (double& weight : anchor.weights) take(weight);
     take(anchor.until);
   }
@@ -122,9 +125,10 @@ std::string encode(const SeriesRow& row, std::span<const integrator::Anchor<doub
   put(bytes, version);
   put(bytes, static_cast<std::uint64_t>(anchors.size()));
   for (const auto& anchor : anchors) {
-    put(bytes, std::uint64_t{anchor.layer});
-    put(bytes, static_cast<std::uint64_t>(anchor.kind));
-    for (const VertexId v : anchor.vertices) put(bytes, static_cast<std::uint64_t>(v));
+    put(bytes, std::uint64_t{anchor.of.material});
+    put(bytes, std::uint64_t{anchor.of.layer});
+    put(bytes, static_cast<std::uint64_t>(anchor.of.kind));
+    for (const VertexId v : anchor.of.vertices) put(bytes, static_cast<std::uint64_t>(v));
     for (const double weight : anchor.weights) put(bytes, weight);
     put(bytes, anchor.until);
   }

@@ -6,16 +6,17 @@
 //
 // Bytes, all numbers little-endian of 8 bytes:
 //   1. The text "noli row", the version 7.
-//   2. The number of anchors of friction at the window's end, and for each its layer, kind of pair, four vertices,
-//      four weights, and the time up to which it lasts. A resumed run needs these (integrator/anchors.h).
+//   2. The number of anchors of friction at the window's end, and for each its material, layer, kind of pair, four
+//      vertices, four weights, and the time up to which it lasts. They ascend by the first four. A resumed run needs
+//      them (integrator/anchors.h).
 //   3. Each field in the order of SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer,
 //      material, pair, four vertices, time, distance; the least step; the number of materials of contact, and for each
 //      the works of its potential, of friction, of restitution; the number of scripts, and the work of each; the number
 //      of bins, and for each its number (a signed integer in two's complement) and its ticks.
 //
 // The version is also that of the motion: a run that began with another version would go on differently. In version 6
-// one anchor served all layers of a pair, without damping; in version 5 damping shortened no steps; version 4 had no anchors; in version 3 gravity had a
-// clock of its own.
+// one anchor served all layers of a pair, without damping; in version 5 damping shortened no steps; version 4 had no
+// anchors; in version 3 gravity had a clock of its own.
 #pragma once
 
 #include <cstdint>

@@ -156,9 +156,12 @@ void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& sc
 /// Checks the anchors of friction at the window's end.
 void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window,
                    const RunScene& scene) {
+  require(std::ranges::adjacent_find(anchors, std::ranges::greater_equal(), &integrator::Anchor<double>::of) ==
+              anchors.end(),
+          "anchors that do not ascend");
   for (const auto& anchor : anchors) {
-    require(anchor.layer > 0, "an anchor of layer 0; expected one from 1 on");
-    check_pair("an anchor", anchor.kind, anchor.vertices, scene);
+    require(anchor.of.layer > 0, "an anchor of layer 0; expected one from 1 on");
+    check_pair("an anchor", anchor.of.kind, anchor.of.vertices, scene);
     for (const double weight : anchor.weights) {
       require(std::abs(weight) <= 1, "an anchor with the weight {}; expected one from -1 to 1", weight);
     }

@@ -27,7 +27,7 @@ void EnergyWatch::add(const SeriesRow& row) {
   integration_ += row.integration;
   double created = 0;
   for (std::size_t k = 0; k < force_kinds; ++k) {
-    if (k == static_cast<std::size_t>(ForceKind::contact)) continue;  // friction may drive what lies on a belt
+    if (k == static_cast<std::size_t>(ForceKind::contact)) continue;  // its anchors give back what they have taken
     damping_[k] += row.damping_work[k];
     least_damping_[k] = std::min(least_damping_[k], damping_[k]);
     created += damping_[k] - least_damping_[k];

@@ -15,10 +15,10 @@
 // fluctuates. It has gone astray if it is off by more than a twentieth of the scale in either direction.
 //
 // Forces that press on layers are booked for energy that is taken back before their next kick (docs/contact.md, section
-// 6). Where layers act, what takes it may be restitution, damping or friction, which are then booked for more than
-// bodies have lost. If they took energy, B is therefore K + V less only what scripts gave, and has gone astray only if
-// it is above its beginning. If the scene allows steps above their limits, this holds for restitution only: damping and
-// friction may then take what unstable steps create.
+// 6). What takes it may be restitution, damping or friction, which are then booked for more than bodies have lost. Once
+// a layer has acted, and if they took energy, B is therefore K + V less only what scripts gave, and has gone astray
+// only if it is above its beginning. If the scene allows steps above their limits, this holds for restitution only:
+// damping and friction may then take what unstable steps create.
 //
 // Only the ends of windows are checked. Where B is that of layers, energy that steps create goes unnoticed as long as
 // damping, friction and restitution take more.
@@ -37,8 +37,8 @@ class EnergyWatch {
   /// How far B may be off, as a share of the scale.
   static constexpr double most = 0.05;
 
-  /// `kinetic`: K at the beginning [J]. `rounding`: the energy that rounding may create [J]. `stable`: no step is above
-  /// its limit.
+  /// `kinetic`: K at the beginning [J]. `rounding`: the energy that rounding may create [J]. `stable`: the scene allows
+  /// no steps above their limits.
   explicit EnergyWatch(double kinetic = 0, double rounding = 0, bool stable = true)
       : rounding_(rounding), stable_(stable), greatest_(kinetic) {}
 

@@ -15,7 +15,8 @@ struct Ending {
   int windows = 0;             ///< verified windows; nothing touches in them
   std::uint64_t impulses = 0;  ///< contact impulses in them and in the aborted one
   std::uint32_t deepest = 0;   ///< deepest layer
-  double rubbing = 0;          ///< the greatest work of friction from time 0 to the end of a window, or 0 [J]
+  double energy = 0;           ///< at time 0 [J]
+  double friction_gave = 0;    ///< the most by which the work of friction rose above its least so far, by windows [J]
   // Why the next window was not committed:
   bool touched = false;  ///< exact arithmetic found a contact
   bool not_finite = false;
@@ -37,7 +38,8 @@ Ending run_verified(const Model<double, Dim>& model, int windows, std::uint64_t 
   Recording<double, Dim> recording;
   Ending ending;
   std::uint64_t turns = 0;
-  double friction = 0;
+  double friction = 0, least_friction = 0;
+  ending.energy = simulation.state().energy();
   while (ending.windows < windows && !ending.stopped()) {
     recording.clear();
     Books<double, Dim> books;
@@ -48,7 +50,8 @@ Ending run_verified(const Model<double, Dim>& model, int windows, std::uint64_t 
     }
     ending.impulses += books.of(ForceKind::contact).events;
     friction += books.of(ForceKind::contact).damping_work;
-    ending.rubbing = std::max(ending.rubbing, friction);
+    least_friction = std::min(least_friction, friction);
+    ending.friction_gave = std::max(ending.friction_gave, friction - least_friction);
     ending.deepest = simulation.certificates().deepest;
     ending.not_finite = !simulation.finite();
     if (ending.stopped()) return ending;

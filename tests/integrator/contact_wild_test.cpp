@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests random small scenes with extreme parameters. A window may only touch because the steps of contact are too long,
-// never because certificates missed a layer. Friction gives back at most the energy that it has taken. (While one anchor
+// never because certificates missed a layer. Friction gives back no more energy than it has taken. (While one anchor
 // served all layers of a pair, it gave more in four of these scenes, by up to a tenth of the energy at time 0.)
 #include <gtest/gtest.h>
 
@@ -20,6 +20,7 @@ using test::Wild;
 
 struct Tally {
   int scenes = 0, done = 0, limited = 0, touched = 0, calm = 0, calm_done = 0;
+  int with_friction = 0;
   std::uint64_t windows = 0, impulses = 0;
   std::uint32_t deepest = 0;
 };
@@ -72,7 +73,8 @@ void try_scene(std::uint64_t seed, bool inclusion_exclusion, Tally& tally) {
   EXPECT_GE(ending.impulses, 100U);
   EXPECT_FALSE(ending.long_winded);
   EXPECT_FALSE(ending.not_finite);
-  EXPECT_EQ(ending.rubbing, 0) << "friction has given energy";
+  EXPECT_LE(ending.friction_gave, 1e-3 * ending.energy);
+  tally.with_friction += wild.model.contact->materials[0].friction > 0;
   if (ending.limit) expect_sane(*ending.limit, wild.model, ending.windows);
   if (ending.touched) expect_no_fault_of_certificates(wild.model, ending);
   if (!done) {
@@ -93,6 +95,7 @@ void try_scenes(std::span<const std::uint16_t> seeds, bool inclusion_exclusion =
       tally.done, tally.limited, tally.touched, tally.calm_done, tally.calm);
   EXPECT_EQ(tally.scenes, static_cast<int>(seeds.size()));
   EXPECT_GE(tally.calm_done * 100, tally.calm * 95);
+  EXPECT_GT(tally.with_friction * 3, tally.scenes) << "half of all have friction";
   EXPECT_GT(tally.calm * 2, tally.scenes) << "most have c <= 0.1, as c is log-uniform from 0.01 to 0.5";
 }
 

@@ -4,6 +4,7 @@
 // of friction is part of the motion's state.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -26,16 +27,17 @@ BuiltScene<3> built(const std::string& bodies, const std::string& rest) {
 }
 
 /// A box on a level plane of cells x cells squares, with gravity tilted by atan 1/2. All steps are the defaults.
-BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = false, int cells = 1) {
+BuiltScene<3> box_on_an_incline(double friction, bool inclusion_exclusion = false, int cells = 1,
+                                double stiffness = 2000) {
   const std::string count = std::to_string(cells);
   return built(R"({"name": "box", "mesh": {"box": {"size": [0.2, 0.2, 0.1], "cells": [2, 2, 1]}},
                    "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 5}, "translate": [-0.3, -0.3, 0.0595]}, )" +
                    elastic + R"(}, {"name": "plane", "mesh": {"grid": {"size": [4, 2], "cells": [)" + count + ", " +
                    count + R"(]}}, "transform": {"translate": [1, 0, 0]}, "pin": ["all"], )" + rigid + "}",
                R"("duration": 4, "gravity": [4.387165, 0, -8.77433],
-                  "contact": {"thickness": 0.01, "stiffness": 2000, "restitution": 0.25, "friction": )" +
-                   std::to_string(friction) + R"(, "inclusion_exclusion": )" +
-                   (inclusion_exclusion ? "true}" : "false}"));
+                  "contact": {"thickness": 0.01, "restitution": 0.25, "stiffness": )" +
+                   std::to_string(stiffness) + R"(, "friction": )" + std::to_string(friction) +
+                   R"(, "inclusion_exclusion": )" + (inclusion_exclusion ? "true}" : "false}"));
 }
 
 /// A box between two plates that close on it and hold it against gravity.
@@ -98,6 +100,22 @@ TEST(FrictionHolds, ABoxOnAFloorOfManyCells) {
                   inclusion_exclusion ? " with inclusion and exclusion" : "");
       EXPECT_LT(std::abs(speed), 1e-5);
     }
+  }
+}
+
+/// The box lies so deep in soft layers that several of them hold it, each with its own anchors.
+TEST(FrictionHolds, ABoxInDeepLayers) {
+  for (const double stiffness : {100, 20}) {
+    const BuiltScene<3> scene = box_on_an_incline(0.55, false, 1, stiffness);
+    const double speed = creep(scene, 0);
+    Simulation<double, 3> simulation(scene.model);
+    test::run(simulation, 100);
+    const auto anchors = simulation.snapshot().anchors;
+    ASSERT_FALSE(anchors.empty());
+    std::printf("with %g N/m it creeps %.3g mm/s, held by %d layers\n", stiffness, 1000 * speed,
+                static_cast<int>(anchors.back().of.layer));
+    EXPECT_GT(anchors.back().of.layer, 1U);
+    EXPECT_LT(std::abs(speed), 1e-5);
   }
 }
 
@@ -164,11 +182,12 @@ Snapshot<double, 3> gone_on(const Model<double, 3>& model, const Snapshot<double
 }
 
 TEST(FrictionHolds, GoesOnFromASnapshotAsIfNothingHadHappened) {
-  const BuiltScene<3> scene = box_on_an_incline(0.55);
+  const BuiltScene<3> scene = box_on_an_incline(0.55, false, 1, 100);
   Simulation<double, 3> simulation(scene.model);
   test::run(simulation, 40);
   Snapshot<double, 3> half = simulation.snapshot();
   EXPECT_GE(half.anchors.size(), 8U);
+  EXPECT_TRUE(std::ranges::any_of(half.anchors, [](const auto& anchor) { return anchor.of.layer > 1; }));
   test::run(simulation, 10);
   test::expect_same(gone_on(scene.model, half, 10), simulation.snapshot());
   EXPECT_EQ(gone_on(scene.model, half, 10).anchors, simulation.snapshot().anchors);
@@ -177,7 +196,7 @@ TEST(FrictionHolds, GoesOnFromASnapshotAsIfNothingHadHappened) {
 }
 
 TEST(FrictionHolds, LayersActivatedInTimeEqualLayersThatAlwaysAre) {
-  BuiltScene<3> scene = box_on_an_incline(0.55);
+  BuiltScene<3> scene = box_on_an_incline(0.55, false, 1, 100);
   Simulation<double, 3> lazy(scene.model);
   scene.model.contact->least_layers = 10;
   Simulation<double, 3> eager(scene.model);

@@ -170,17 +170,17 @@ TEST_F(RunState, EnergiesMayBeBeyondAllDoubles) {
 
 TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
   using Anchor = integrator::Anchor<double>;
-  const Anchor good{1, FeaturePair::vertex_edge, {0, 1, 2, 0}, {1, -0.5, -0.5, 0}, 0.3125};
+  const Anchor good{{0, 1, FeaturePair::vertex_edge, {0, 1, 2, 0}}, {1, -0.5, -0.5, 0}, 0.3125};
   struct Bad {
     void (*change)(Anchor&);
     std::string message;
   };
   const std::vector<Bad> all{
-      {[](Anchor& a) { a.layer = 0; }, "an anchor of layer 0; expected one from 1 on"},
-      {[](Anchor& a) { a.kind = FeaturePair::vertex_face; },
+      {[](Anchor& a) { a.of.layer = 0; }, "an anchor of layer 0; expected one from 1 on"},
+      {[](Anchor& a) { a.of.kind = FeaturePair::vertex_face; },
        "an anchor between a pair of features that 2D does not have"},
-      {[](Anchor& a) { a.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
-      {[](Anchor& a) { a.vertices[2] = 0; }, "an anchor that names a vertex twice"},
+      {[](Anchor& a) { a.of.vertices[2] = 3; }, "an anchor at vertex 3; expected one below 3"},
+      {[](Anchor& a) { a.of.vertices[2] = 0; }, "an anchor that names a vertex twice"},
       {[](Anchor& a) { a.weights[1] = not_a_number; }, "an anchor with the weight nan; expected one from -1 to 1"},
       {[](Anchor& a) { a.until = 0.3; }, "an anchor that ends at 0.3 s; expected a time from 0.3125 s to"},
       {[](Anchor& a) { a.until = infinity; }, "an anchor that ends at inf s"}};
@@ -192,6 +192,10 @@ TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
     EXPECT_EQ(process.exit_code, 3) << bad.message;
     EXPECT_NE(process.err.find("the state of window 5: " + bad.message), std::string::npos) << process.err;
   }
+  change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good, good}; });
+  const Process twice = run_noli({"info", run_path("run")});
+  EXPECT_EQ(twice.exit_code, 3);
+  EXPECT_NE(twice.err.find("the state of window 5: anchors that do not ascend"), std::string::npos) << twice.err;
   change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good}; });
   EXPECT_EQ(run_noli({"info", run_path("run")}).exit_code, 0);
 }
