@@ -221,7 +221,8 @@ class Audit {
     for (const LoggedFiring& logged : log_.firings()) {
       const integrator::Firing& f = logged.firing;
       if (!(f.time > 0)) continue;
-      layers.push_back({f.h, "layer " + std::to_string(f.layer), (std::uint64_t{f.material} + 1) << 32 | f.layer});
+      const std::uint64_t material = f.terms.material, layer = f.terms.layer;
+      layers.push_back({f.h, "layer " + std::to_string(layer), (material + 1) << 32 | layer});
       events.push_back({f.time, static_cast<std::uint64_t>(std::llround(f.time / f.h)), &layers.back()});
     }
     outcome_.tie = first_tie(events);
