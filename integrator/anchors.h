@@ -17,13 +17,15 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "certificates/stencil.h"
+#include <noli/mesh.h>
+#include <noli/query.h>
 
 namespace noli::integrator {
 

@@ -39,7 +39,7 @@ struct LayerTerms {
 struct Course {
   bool acts = false;         ///< g < 0
   bool parts = false;        ///< the closest points part, so that restitution counts
-  bool sticks = false;       ///< friction stays below Coulomb's bound
+  bool sticks = false;       ///< the pair can slip, and friction does not exceed Coulomb's bound
   std::uint8_t corners = 0;  ///< bit i: vertex i has a nonzero weight in the closest points
 
   friend bool operator==(const Course&, const Course&) = default;
@@ -91,7 +91,7 @@ template <class S, int Dim, std::size_t N>
 struct Friction {
   Impulses<Dim, S> impulses;          ///< all zero if nothing slips
   std::array<Vec<S, Dim>, N> before;  ///< velocities before the layer fired
-  bool sticks = false;                ///< the pair can slip, and friction stays below Coulomb's bound
+  bool sticks = false;                ///< as in Course
 };
 
 /// How a pair is struck that is only a part of a contact (integrator/inclusion_exclusion.h).

@@ -36,7 +36,7 @@ struct CourseChanges {
   };
   Way acts;     ///< a layer acts in one run and not in the other: the order of impulses differs
   Way parts;    ///< restitution counts in only one of them
-  Way sticks;   ///< friction stops all slip in only one of them
+  Way sticks;   ///< friction exceeds Coulomb's bound in only one of them
   Way corners;  ///< the closest points lie on other parts of the features
 };
 

@@ -60,10 +60,11 @@ class Comparison : public integrator::Uncounted {
     if (here == there) return;
     const CourseChange change{firing_.time, pair, firing_.terms.layer, there.acts};
     if (here.acts != there.acts) return changes_.acts.add(change);
-    if (here.corners != there.corners) changes_.corners.add(change);
+    const bool corners_differ = here.corners != there.corners;
+    if (corners_differ) changes_.corners.add(change);
     if (!here.acts) return;
     if (here.parts != there.parts && firing_.terms.restitution != 1) changes_.parts.add(change);
-    if (here.sticks != there.sticks) changes_.sticks.add(change);
+    if (here.sticks != there.sticks && !corners_differ) changes_.sticks.add(change);
   }
 
   /// Records a difference if a breakpoint of the log did not occur.

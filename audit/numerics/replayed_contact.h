@@ -2,7 +2,7 @@
 //
 // Replays contact: layers fire at the times and for the pairs of a logged run, with the formulas of
 // integrator/layer_fire.h in numbers of type S. This run's own positions decide whether a layer acts, between which
-// points, whether restitution counts, and whether friction stops the slip.
+// points, whether restitution counts, whether friction exceeds Coulomb's bound, and where anchors are.
 //
 // Times, thicknesses, stiffnesses and steps are the doubles of the logged run. There are no certificates, so a pair
 // that comes near only in this run is not seen.

@@ -7,8 +7,8 @@
 // Bytes, all numbers little-endian of 8 bytes:
 //   1. The text "noli row", the version 7.
 //   2. The number of anchors of friction at the window's end, and for each its material, layer, kind of pair, four
-//      vertices, four weights, and the time up to which it lasts. They ascend by the first four. A resumed run needs
-//      them (integrator/anchors.h).
+//      vertices, four weights, and the time up to which it lasts. They ascend by material, layer, kind and vertices.
+//      A resumed run needs them (integrator/anchors.h).
 //   3. Each field in the order of SeriesRow: doubles; events, breakpoints, halvings; the two layers, each as layer,
 //      material, pair, four vertices, time, distance; the least step; the number of materials of contact, and for each
 //      the works of its potential, of friction, of restitution; the number of scripts, and the work of each; the number

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -154,12 +155,14 @@ void check_row(const SeriesRow& row, const RunWindow& window, const RunScene& sc
 }
 
 /// Checks the anchors of friction at the window's end.
-void check_anchors(std::span<const integrator::Anchor<double>> anchors, const RunWindow& window,
+void check_anchors(std::span<const integrator::Anchor<double>> anchors, std::size_t materials, const RunWindow& window,
                    const RunScene& scene) {
   require(std::ranges::adjacent_find(anchors, std::ranges::greater_equal(), &integrator::Anchor<double>::of) ==
               anchors.end(),
           "anchors that do not ascend");
   for (const auto& anchor : anchors) {
+    require(anchor.of.material < materials, "an anchor of material {}; expected one below {}", anchor.of.material,
+            materials);
     require(anchor.of.layer > 0, "an anchor of layer 0; expected one from 1 on");
     check_pair("an anchor", anchor.of.kind, anchor.of.vertices, scene);
     for (const double weight : anchor.weights) {
@@ -193,7 +196,7 @@ void SeriesReader::take_row(const RunWindow& window) {
   try {
     state_ = decode_state(window.state);
     check_row(state_->row, window, scene(), before ? &before->row : nullptr);
-    check_anchors(state_->anchors, window, scene());
+    check_anchors(state_->anchors, state_->row.contact_work.size(), window, scene());
   } catch (const std::invalid_argument& error) {
     refuse(error.what());
   }

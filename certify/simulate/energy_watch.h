@@ -16,12 +16,12 @@
 //
 // Forces that press on layers are booked for energy that is taken back before their next kick (docs/contact.md, section
 // 6). What takes it may be restitution, damping or friction, which are then booked for more than bodies have lost. Once
-// a layer has acted, and if they took energy, B is therefore K + V less only what scripts gave, and has gone astray
-// only if it is above its beginning. If the scene allows steps above their limits, this holds for restitution only:
-// damping and friction may then take what unstable steps create.
+// a layer has acted, and if together they took energy, B is therefore K + V less only what scripts gave, and has gone
+// astray only if it is above its beginning. If the scene allows steps above their limits, this holds for restitution
+// only: damping and friction may then take what unstable steps create.
 //
-// Only the ends of windows are checked. Where B is that of layers, energy that steps create goes unnoticed as long as
-// damping, friction and restitution take more.
+// Only the ends of windows are checked. Where B leaves out only what scripts gave, energy that steps create goes
+// unnoticed as long as damping, friction and restitution take more.
 #pragma once
 
 #include <array>

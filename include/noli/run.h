@@ -235,14 +235,14 @@ struct PairTooNear {
   double time = 0;                     ///< [s]
 };
 
-/// Where the energy balance is off most. If restitution takes energy, B keeps what damping and friction gave, so that
-/// it can only fall.
+/// Where the energy balance is off most. If restitution, or on layers damping or friction, takes energy, B keeps what
+/// they gave, so that it can only fall.
 struct EnergyAstray {
   double begin = 0;       ///< B at the beginning [J]
   double there = 0;       ///< B where it is farthest from that [J]
   double time = 0;        ///< [s]
   double scale = 0;       ///< [J]
-  bool may_fall = false;  ///< restitution takes energy
+  bool may_fall = false;  ///< B keeps what damping, friction and restitution gave
 };
 
 enum class SeriesEnd : std::uint8_t {

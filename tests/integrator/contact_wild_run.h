@@ -3,6 +3,8 @@
 // Runs a small scene and verifies each window before it counts, as `noli simulate` does.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "contact_models.h"
@@ -16,7 +18,7 @@ struct Ending {
   std::uint64_t impulses = 0;  ///< contact impulses in them and in the aborted one
   std::uint32_t deepest = 0;   ///< deepest layer
   double energy = 0;           ///< at time 0 [J]
-  double friction_gave = 0;    ///< the most by which the work of friction rose above its least so far, by windows [J]
+  double friction_gave = 0;    ///< the most that friction's work rose above its least so far, at ends of windows [J]
   // Why the next window was not committed:
   bool touched = false;  ///< exact arithmetic found a contact
   bool not_finite = false;

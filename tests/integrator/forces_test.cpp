@@ -96,7 +96,7 @@ VertexVectors<double, 2, 3> turned(double phi) {
   return {Vec<double, 2>(-2, 0), {0, 0}, {1.5 * std::cos(phi), 1.5 * std::sin(phi)}};
 }
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(HingeTest, EnergyOfAFoldedHinge) {
   const double rigidity = 3, K = rigidity * 4 / 2.5;  // L0 = 2; areas 1 and 1.5

@@ -109,12 +109,17 @@ TEST(FrictionHolds, ABoxInDeepLayers) {
     const BuiltScene<3> scene = box_on_an_incline(0.55, false, 1, stiffness);
     const double speed = creep(scene, 0);
     Simulation<double, 3> simulation(scene.model);
-    test::run(simulation, 100);
-    const auto anchors = simulation.snapshot().anchors;
-    ASSERT_FALSE(anchors.empty());
+    test::run(simulation, 50);
+    const ContactSettings& contact = *scene.model.contact;
+    std::uint32_t layers = 0;
+    for (const Anchor<double>& anchor : simulation.snapshot().anchors) {
+      const double step = layer_step(contact.materials[anchor.of.material], contact.schedule, anchor.of.layer);
+      EXPECT_LE(anchor.until, simulation.time() + 1.5 * step) << "it outlives its layer " << anchor.of.layer;
+      layers = std::max(layers, anchor.of.layer);
+    }
     std::printf("with %g N/m it creeps %.3g mm/s, held by %d layers\n", stiffness, 1000 * speed,
-                static_cast<int>(anchors.back().of.layer));
-    EXPECT_GT(anchors.back().of.layer, 1U);
+                static_cast<int>(layers));
+    EXPECT_GT(layers, 1U);
     EXPECT_LT(std::abs(speed), 1e-5);
   }
 }
@@ -136,10 +141,10 @@ TEST(FrictionHolds, AFrameInThePlane) {
 }
 
 /// A point that strikes a floor obliquely: friction takes 2 mu of the speed at which it came down, and no more than
-/// there is. What it takes does not come back.
+/// there is. What it takes does not come back. Only slip that was stopped leaves anchors.
 TEST(FrictionHolds, AnImpactStopsSlipAndDoesNotTurnIt) {
-  for (const auto& [friction, left] : {std::pair{0.2, 0.6}, {0.5, 0.0}, {1.0, 0.0}, {10.0, 0.0}}) {
-    const std::string text = R"({"noli_scene": 1, "dimension": 2, "window": 0.01, "duration": 1, "bodies": [
+  for (const auto& [friction, left] : {std::pair{0.2, 0.6}, {0.6, 0.0}, {1.0, 0.0}, {10.0, 0.0}}) {
+    const std::string text = R"({"noli_scene": 1, "dimension": 2, "window": 0.001, "duration": 1, "bodies": [
           {"mesh": {"points": {"at": [[0, 0.02]]}}, "velocity": [1, -1],
            "material": {"edge_stiffness": 0, "mass_per_vertex": 1}},
           {"mesh": {"chain": {"points": [[-2, 0], [4, 0]], "segments": 1}}, "pin": ["all"],
@@ -148,7 +153,12 @@ TEST(FrictionHolds, AnImpactStopsSlipAndDoesNotTurnIt) {
                              std::to_string(friction) + "}}";
     const BuiltScene<2> scene = build_model<2>(parse_scene(text, "friction", Form::full));
     Simulation<double, 2> simulation(scene.model);
-    test::run(simulation, 20);
+    bool anchored = false;
+    for (int k = 0; k < 200; ++k) {
+      test::run(simulation, 1);
+      anchored |= !simulation.snapshot().anchors.empty();
+    }
+    EXPECT_EQ(anchored, left == 0) << friction;
     const Vec<double, 2> v = simulation.snapshot().v[0];
     EXPECT_NEAR(v[1], 1, 1e-3);
     EXPECT_NEAR(v[0], left, 2e-3) << friction;

@@ -74,7 +74,7 @@ TEST(ResonanceTest, FormulaIsTheTrace) {
 
 /// Tests the tongue's edges, and its law for a well resolved fast spring.
 TEST(ResonanceTest, EdgesOfATongue) {
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   const double kappa = 0.63, edge = pi - 2 * std::atan(kappa / 2);
   for (const int n : {0, 1, 5}) {
     EXPECT_FALSE(integrator::in_tongue({n * pi + edge - 1e-9, kappa}));

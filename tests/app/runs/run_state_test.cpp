@@ -176,6 +176,7 @@ TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
     std::string message;
   };
   const std::vector<Bad> all{
+      {[](Anchor& a) { a.of.material = 1; }, "an anchor of material 1; expected one below 1"},
       {[](Anchor& a) { a.of.layer = 0; }, "an anchor of layer 0; expected one from 1 on"},
       {[](Anchor& a) { a.of.kind = FeaturePair::vertex_face; },
        "an anchor between a pair of features that 2D does not have"},
@@ -192,11 +193,15 @@ TEST_F(RunState, AnchorsAreThoseOfTheWindow) {
     EXPECT_EQ(process.exit_code, 3) << bad.message;
     EXPECT_NE(process.err.find("the state of window 5: " + bad.message), std::string::npos) << process.err;
   }
-  change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good, good}; });
-  const Process twice = run_noli({"info", run_path("run")});
-  EXPECT_EQ(twice.exit_code, 3);
-  EXPECT_NE(twice.err.find("the state of window 5: anchors that do not ascend"), std::string::npos) << twice.err;
-  change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good}; });
+  Anchor deeper = good;
+  deeper.of.layer = 2;
+  for (const FrictionAnchors& unsorted : {FrictionAnchors{good, good}, FrictionAnchors{deeper, good}}) {
+    change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = unsorted; });
+    const Process process = run_noli({"info", run_path("run")});
+    EXPECT_EQ(process.exit_code, 3);
+    EXPECT_NE(process.err.find("the state of window 5: anchors that do not ascend"), std::string::npos) << process.err;
+  }
+  change_state(run_path("run"), 5, [&](SeriesRow&, FrictionAnchors& anchors) { anchors = {good, deeper}; });
   EXPECT_EQ(run_noli({"info", run_path("run")}).exit_code, 0);
 }
 
