@@ -24,8 +24,6 @@
 
 namespace noli {
 
-enum class FrameFormat : std::uint8_t { ply, obj, vtu };
-
 struct ExportRequest {
   std::filesystem::path run;
   double fps = 60;
