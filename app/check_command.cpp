@@ -56,7 +56,8 @@ constexpr const char* check_footer =
     "(docs/scale.md).\n"
     "\n"
     "Exit codes: 0 what you ask is proved; 1 something touches, and a witness shows it; 2 stopped before an "
-    "answer (--time-limit, Ctrl-C); 3 anything else.\n"
+    "answer (--time-limit, Ctrl-C); 3 the proof, another input or the command line is at fault; 4 the machine or Noli "
+    "failed.\n"
     "Examples:\n"
     "  noli check proof.noli before.ply after.ply\n"
     "  noli check proof.noli frames/*.ply --claim claim.json\n"
@@ -277,7 +278,7 @@ Command add_check(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   command
       ->add_option("files", arguments->files,
-                   "A proof, then PLY or OBJ files or a run; only a run; with --join, answers")
+                   "A proof, then its frames (as for noli verify) or its run; only a run; with --join, answers")
       ->required()
       ->type_name("PROOF TRAJECTORY | RUN | ANSWERS");
   command

@@ -43,7 +43,7 @@ constexpr const char* simulate_footer =
     "\n"
     "Verdicts: no_contact (exit 0); contact, too_near (a pair needs more layers of contact than allowed), "
     "not_finite (numbers overflow), unstable (all windows are there, but the energy is off by more than a "
-    "twentieth) (1); undecided (interrupted, or out of time: 2).\n"
+    "twentieth) (1); undecided (interrupted, out of time or memory: 2).\n"
     "Examples:\n"
     "  noli simulate scenes/swinging_cloth.json -o runs/cloth\n"
     "  noli simulate scenes/swinging_cloth.json --short -o runs/short\n"

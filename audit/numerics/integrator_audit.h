@@ -10,7 +10,7 @@
 //             of first layers too
 //   euler     the implicit Euler method (implicit_euler.h), for comparison; not for damping, scripts, contact
 // Each method runs with the scene's steps, then with halves, quarters, ... of them. `euler` runs with the window and
-// quarters, sixteenths, ... of it, down to the least step.
+// quarters, sixteenths, ... of it, as often, but with no step below h.
 //
 // Notation
 //   h          the least step of a force, rounded down to that of a group [s]; n the number of halvings

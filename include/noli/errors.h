@@ -8,9 +8,10 @@
 //   } catch (const noli::UsageError& error) {      // the request is at fault
 //   }
 //
-// All derive from std::runtime_error, and what() is one line. Noli also throws std::system_error (disk, processes) and
-// std::bad_alloc, and passes on what a callback throws. A verdict is a result, never an exception. Thread safety: any
-// thread.
+// All derive from std::runtime_error, and what() is one line. Noli also throws std::system_error (disk, processes),
+// std::bad_alloc, std::runtime_error (a checker is missing or failed) and, where a header says so, std::logic_error and
+// what derives from it; it passes on what a callback throws. A verdict is a result, never an exception. Thread safety:
+// any thread.
 #pragma once
 
 #include <cstdint>

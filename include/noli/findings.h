@@ -9,9 +9,11 @@
 // Which pairs are counted, each once, and in a step or window if it meets anywhere in that closed time:
 //   3D  vertex_face    every vertex of a cell (loose points included) against every face
 //       edge_edge      every edge of a face and every loose edge, against every other
-//       vertex_edge    a vertex of one cell against an edge of another, where no larger pair of these two cells stands
+//       vertex_edge    a vertex of one cell against an edge of another, unless a larger pair of these two cells stands
+//                      for it
 //   2D  vertex_edge    every vertex of a cell against every edge
-//   both vertex_vertex a vertex of one cell against one of another, where no larger pair of these two cells stands
+//   both vertex_vertex a vertex of one cell against one of another, unless a larger pair of these two cells stands
+//                      for it
 // A pair stands for another if its two features contain the two of the other.
 //
 // Plain values: no preconditions, no errors; several threads may read one.

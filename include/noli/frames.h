@@ -16,8 +16,8 @@
 //   order     names of a family compare by their first number, then by the second, and so on. Numbers of folders come
 //             before those of the file's own name
 //
-// Formats: PLY (ASCII and binary), OBJ, VTU and VTP. Arrays of numpy and files of frames have the positions of many
-// frames. Coordinates keep the unit of the file.
+// Formats: PLY (ASCII and binary), OBJ, VTU and VTP. Arrays of numpy, files of frames and, where Noli is built with
+// HDF5, VTKHDF and a run's series.h5 have the positions of many frames. Coordinates keep the unit of the file.
 // Errors: as each function says. Thread safety: any thread; there is no state. Nothing here opens a file.
 #pragma once
 
@@ -72,15 +72,15 @@ struct FrameBody {
   bool still = false;
 };
 
-/// Frames that no file has: arrays in memory, or what a solver makes. What names the frames of files then has one name,
-/// by which messages call these: frame k is NAME[k].
+/// Frames in memory: arrays, or a solver's output. `frames` of the request then has one name, NAME; messages call frame
+/// k NAME[k].
 struct GivenFrames {
   Mesh mesh;                         ///< every index is below its vertex_count
   std::optional<std::size_t> count;  ///< nothing: `frame` says where the end is
-  /// The positions of frame k = 0, 1, ..., one per vertex, which are copied; nothing behind the last frame. Called from
+  /// The positions of frame k = 0, 1, ..., one per vertex, which are copied; nothing after the last frame. Called from
   /// the threads of whoever reads, never twice at once. What it throws is passed on.
   std::function<std::optional<std::vector<Position>>(std::size_t k)> frame;
-  bool again = false;               ///< `frame` may be asked for frames from an earlier one on, and says the same then
+  bool again = false;               ///< `frame` may be called again from an earlier k on, with the same positions
   std::string numbers = "float64";  ///< as in FrameFacts: what the coordinates were before they were doubles
   std::vector<FrameBody> bodies = {};
 };
@@ -88,7 +88,7 @@ struct GivenFrames {
 /// How frames are read.
 struct FrameReading {
   PolygonRule polygons = PolygonRule::fan;
-  std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: those that can be no other
+  std::vector<std::string> keys;  ///< names of the arrays with positions and cells; empty: the only arrays that fit
   std::vector<BodyFrames> bodies = {};            ///< joined into one mesh; empty for frames of one mesh
   std::shared_ptr<const GivenFrames> given = {};  ///< these instead of files
   bool ahead = false;  ///< another thread reads the next file meanwhile: the positions of three frames are in memory

@@ -147,7 +147,7 @@ struct CheckRequest {
   /// as the machine has threads. Each has a mesh and frames of its own in memory. What they say is the same.
   int checkers = 1;
   /// Called now and then, from any thread but one at a time, with the share of `proof` that the checker has read, in
-  /// [0, 1], if the system tells it.
+  /// [0, 1], if the system reports it.
   std::function<void(double share)> progress = {};
 };
 

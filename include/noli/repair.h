@@ -73,7 +73,7 @@ struct RepairRequest {
   bool check = true;                           ///< the checker looks at it
   std::optional<std::chrono::steady_clock::time_point> deadline;
   const std::atomic<bool>* stop = nullptr;  ///< polled
-  /// Called with what is done, and the share of it in [0, 1]: "repair", then what verify tells. Calls do not overlap.
+  /// Called with what is done, and the share of it in [0, 1]: "repair", then those of run_verify. Calls do not overlap.
   std::function<void(std::string_view work, double share)> progress;
 };
 
@@ -158,7 +158,8 @@ struct RepairOutcome {
 };
 
 /// Throws InputError, Stopped (a stop while the frames are opened), UsageError (the pattern; the folder of the run;
-/// options that do not go together), WriteError and std::system_error (the disk), std::bad_alloc.
+/// options that do not go together), HelperError (what reads HDF5; the checker), WriteError and std::system_error (the
+/// disk), std::runtime_error (there is no checker), std::bad_alloc.
 RepairOutcome run_repair(const RepairRequest& request);
 
 }  // namespace noli

@@ -162,7 +162,7 @@ struct SeriesRow {
 /// What certificates cost.
 struct CertificateCounts {
   std::uint64_t slices = 0;
-  std::uint64_t tubes = 0;                           ///< left before the slice's end
+  std::uint64_t tubes = 0;                           ///< around a vertex's expected path, left before the slice's end
   std::uint64_t plans = 0;                           ///< guards made
   std::uint64_t penned = 0;                          ///< of these, those inside a pen
   std::uint64_t repairs = 0;                         ///< slabs

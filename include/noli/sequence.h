@@ -15,8 +15,8 @@
 // A pair of features that already meets at the beginning of a later step is not counted again.
 //
 // Units: positions in any unit of length; times in [0, 1] of the step.
-// Errors: std::bad_alloc, and what `progress` throws. Thread safety: a verifier is for one thread at a time, and uses
-// several threads itself; any number of verifiers may run at once.
+// Errors: std::bad_alloc, what `progress` throws, and what baseline() throws. Thread safety: a verifier is for one
+// thread at a time, and uses several threads itself; any number of verifiers may run at once.
 // It writes no proof and reads no files (noli/verify.h does both).
 #pragma once
 
@@ -92,7 +92,7 @@ class SequenceVerifier {
   const Mesh& mesh() const { return mesh_; }
 
   /// The next frame. Nothing for the first one, unless at rest. Precondition: vertex_count finite positions. Throws
-  /// std::bad_alloc.
+  /// std::bad_alloc and, with `only_new`, std::length_error as baseline() does.
   std::optional<StepResult> add(std::span<const Position> x);
 
   /// The next step, for callers that have both frames: x_t0 is the x_t1 of the step before, or its x_t0 when that step

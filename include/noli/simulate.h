@@ -11,13 +11,14 @@
 //
 // Notation
 //   window k   k = 1, 2, ...: from the end of window k - 1 to the next multiple of W, the scene's length of a window.
-//              It ends earlier if it has as many breakpoints as the scene allows. While a window is integrated, the
-//              previous one is verified on another thread
-//   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5
+//              It ends earlier if it has as many breakpoints as the scene allows. With two threads or more, it is
+//              integrated while the previous one is verified
+//   run        a folder: manifest.json, scene.json, trajectory.blocks, log.jsonl, series.h5 and, with record full,
+//              proof.blocks
 //
-// The bytes of trajectory.blocks depend only on the scene and the version: not on threads, interruptions or readers. An
-// interrupted run goes on with `resume`, and run_reproduce makes the bytes of one window again. For all windows, and
-// to verify them again, use run_verify in noli/verify.h with `reproduce`.
+// The bytes of trajectory.blocks depend only on the scene, its form, how far it runs and the version: not on threads,
+// interruptions or readers. An interrupted run goes on with `resume`, and run_reproduce makes the bytes of one window
+// again. For all windows, and to verify them again, use run_verify in noli/verify.h with `reproduce`.
 //
 // Units: SI; each field names its own.
 // Errors: as each function says. Thread safety: simulations may run at once in different folders; a second writer to

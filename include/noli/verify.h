@@ -207,8 +207,8 @@ struct VerifyOutcome {
 
 /// Verifies frames, or a run (request.run) window by window; of a run also that each window begins where the last one
 /// ended. When it is asked to stop or at the deadline, it returns what was settled so far. Throws InputError,
-/// Stopped (a stop while the frames are opened), UsageError (options that do not go together), std::system_error (the
-/// proof), std::bad_alloc.
+/// Stopped (a stop while the frames are opened), UsageError (options that do not go together), HelperError (what reads
+/// HDF5), std::system_error (the proof), std::bad_alloc.
 VerifyOutcome run_verify(const VerifyRequest& request);
 
 }  // namespace noli
