@@ -176,7 +176,7 @@ TEST_F(JoinedAnswers, CoverEachStepOnce) {
   expect_refused({at("1"), at("2"), at("2"), at("3")}, "expected each step once");
   expect_refused({at("1"), answer("b", {"--steps", "2.."})}, "expected each step once");
   expect_refused({answer("a", {"--steps", "1..8"})}, "nothing says that this is the last one");
-  expect_refused({}, "files");
+  expect_refused({}, "with --join, answers");
 }
 
 TEST_F(JoinedAnswers, AreAboutOneProofAndOneQuestion) {
