@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include <noli/errors.h>
+#include <noli/proof.h>
 #include "app/bodies.h"
 #include "app/commands.h"
 #include "app/notes.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/progress.h"
-#include "app/ranks/ranks.h"
-#include "certify/process/hdf5_frames.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/check_parts.h"
-#include "certify/proofs/checker.h"
+#include "certify/proofs/check_ranks.h"
+#include "certify/ranks/ranks.h"
 #include "integrator/scene/json_text.h"
 #include "report/check_report.h"
-#include "report/input_report.h"
 #include "report/joined_check.h"
 #include "trajectory/formats/frame_names.h"
-#include "trajectory/formats/open_frames.h"
-#include "trajectory/input_file.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
 
@@ -81,14 +80,6 @@ struct CheckArguments {
   OutputOptions results;
 };
 
-/// The fields of --claim that --require does not ask for.
-void add_claim(const fs::path& claim, std::vector<std::string>& words) {
-  const std::vector<std::string> by_name = words;
-  for (const std::string& word : read_claim_file(claim)) {
-    if (!asks(by_name, field_of(word))) words.push_back(word);
-  }
-}
-
 /// The steps of --shard K/N: the K-th of N parts of the proof, as A..B or A..
 std::string steps_of_shard(const std::string& text, const fs::path& proof) {
   const ShardNumber shard = parse_shard(text);
@@ -126,46 +117,6 @@ std::optional<std::string> asked_part(const CheckArguments& arguments, const fs:
   return arguments.steps ? parse_steps(*arguments.steps) : steps_of_shard(*arguments.shard, proof);
 }
 
-/// Whether checkers read the motion themselves. What holds no frames by its name or first bytes is theirs to refuse.
-bool is_theirs_to_read(const std::vector<fs::path>& files, const FrameReading& reading) {
-  const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
-  return reading.bodies.empty() && (unknown || checkers_read(files));
-}
-
-CheckerVerdict ask(const CheckRequest& request, const FrameReading& reading) {
-  if (is_theirs_to_read(request.trajectory, reading)) return check_proof(request);
-  auto verdict = check_frames(request, *open_all_frames(request.trajectory, reading));
-  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
-  return *std::move(verdict);
-}
-
-/// Of the ranks of a job, if all were asked the same and accept; nothing for those after the first. Each rank takes the
-/// next few of the parts.
-std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ranks& ranks) {
-  const int threads = request.checkers > 0 ? request.checkers : ranks.threads();
-  const std::vector<std::uint64_t> firsts = parts_of_check(request, threads * ranks.size());
-  const auto begin_of = [&](int rank) {
-    return firsts.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks.size());
-  };
-  const auto own = words_of_parts(request, firsts, begin_of(ranks.rank()), begin_of(ranks.rank() + 1), threads);
-  Json question = Json::array();
-  for (const std::string& word : request.asked) question.push_back(on_one_line(word));
-  for (const fs::path& frame : request.trajectory) question.push_back(on_one_line(frame.string()));
-  std::vector<std::string> words;
-  bool alike = true;
-  for (const std::string& text : ranks.gather(Json{{"question", question}, {"words", own}}.dump())) {
-    const Json of_rank = Json::parse(text);
-    alike = alike && of_rank["question"] == question;
-    for (const Json& part : of_rank["words"]) words.push_back(part);
-  }
-  if (firsts.empty() || !ranks.is_first()) return std::nullopt;
-  auto joined = alike ? joined_words(words, asked_steps(request.asked).value_or(0)) : std::nullopt;
-  if (joined) return CheckerVerdict{0, *std::move(joined)};
-  tell_note(alike ? "not all ranks accept their part, so the first one checks the whole proof"
-                  : "not all ranks were asked about the same frames, so the first one checks the whole proof");
-  return std::nullopt;
-}
-
 /// Sets the bodies; all their files.
 OrderedFrames ordered_bodies(CheckArguments& arguments) {
   OrderedFrames ordered;
@@ -192,17 +143,6 @@ std::vector<fs::path> inputs_of(const CheckArguments& arguments, const std::vect
   inputs.insert(inputs.end(), frames.begin(), frames.end());
   if (arguments.claim) inputs.push_back(*arguments.claim);
   return inputs;
-}
-
-/// Of the ranks of a job together, if all accept; else of one checker. Nothing for the ranks after the first.
-std::optional<CheckerVerdict> verdict_of(CheckRequest& request, const FrameReading& reading, Ranks* ranks) {
-  if (ranks == nullptr) return ask(request, reading);
-  if (is_theirs_to_read(request.trajectory, reading)) {
-    if (auto accepted = accepted_in_ranks(request, *ranks)) return accepted;
-  }
-  if (!ranks->is_first()) return std::nullopt;
-  request.checkers = 1;
-  return ask(request, reading);
 }
 
 /// The answer about a whole proof, from those about its parts.
@@ -244,7 +184,7 @@ ExitCode run(CheckArguments& arguments) {
   if (!ranks || ranks->is_first()) output.emplace(arguments.results, inputs_of(arguments, ordered.frames));
   std::vector<std::string> notes = ordered.notes, asked = arguments.require;
   const auto part = asked_part(arguments, proof, asked);
-  if (arguments.claim) add_claim(*arguments.claim, asked);
+  if (arguments.claim) ask_for_claim(*arguments.claim, asked);
   if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
     if (output && !arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
@@ -259,15 +199,15 @@ ExitCode run(CheckArguments& arguments) {
   std::optional<ProgressBars> bars;
   if (output) bars.emplace();
   if (output) request.progress = [&bars](double share) { bars->show("check", share); };
-  const auto verdict = verdict_of(request, arguments.reading, ranks.get());
+  const auto verdict = ranks ? check_in_ranks(request, arguments.reading, *ranks, tell_note)
+                             : std::optional(check_motion(request, arguments.reading));
   bars.reset();
-  if (!verdict || !output) return ranks->end(ExitCode::holds);  // the first rank's becomes that of all
+  if (!verdict || !output) return static_cast<ExitCode>(ranks->end(0));  // the first rank's becomes that of all
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict->words.starts_with(at_fault)) throw UsageError(first_line(verdict->words).substr(at_fault.size()));
   const report::Checked checked{version_of(which), proof, asked, *verdict, notes, least_steps};
   output->write("check", report::check_answer(checked), report::check_json(checked));
-  const auto code = static_cast<ExitCode>(verdict->code);
-  return ranks ? ranks->end(code) : code;
+  return static_cast<ExitCode>(ranks ? ranks->end(verdict->code) : verdict->code);
 }
 
 }  // namespace

@@ -24,11 +24,11 @@
 #include "app/help.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "app/ranks/ranks.h"
 #include "app/terminal.h"
 #include "app/wrong_usage.h"
 #include "certify/process/this_program.h"
 #include "certify/proofs/checker.h"
+#include "certify/ranks/ranks.h"
 #include "report/figures/png.h"
 #include "report/page/report_page.h"
 #include "trajectory/stop.h"
@@ -69,7 +69,7 @@ std::string parts_text() {
   if (!report::has_report_page()) without.push_back("reports");
   if (!report::can_write_png()) without.push_back("pictures");
   if (!is_beside_this("noli_series")) without.push_back("series.h5");
-  if (!is_beside_this("noli_mpi.so") && !is_beside_this(NOLI_MPI_FOLDER "/noli_mpi.so")) without.push_back("MPI");
+  if (!Ranks::are_installed()) without.push_back("MPI");
   if (!has_audits()) without.push_back("fuzz and audit");
   return without.empty() ? "with all parts\n" : fmt::format("without {}\n", fmt::join(without, ", "));
 }

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "app/ranks/ranks.h"
+#include "certify/ranks/ranks.h"
 
 namespace noli::app {
 

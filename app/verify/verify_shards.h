@@ -10,8 +10,8 @@
 
 #include "app/exit_code.h"
 #include "app/output.h"
-#include "app/ranks/ranks.h"
 #include "app/verify/verdict.h"
+#include "certify/ranks/ranks.h"
 #include "certify/shards/shards.h"
 
 namespace noli::app {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <noli/errors.h>
+#include <noli/proof.h>
 #include "certify/runs/run_folder.h"
 #include "certify/runs/run_log_facts.h"
 #include "certify/runs/run_series_reader.h"
@@ -18,6 +19,13 @@ std::string field_of(const std::string& word) { return word.substr(0, word.find(
 
 bool asks(const std::vector<std::string>& words, const std::string& field) {
   return std::ranges::any_of(words, [&](const std::string& word) { return field_of(word) == field; });
+}
+
+void ask_for_claim(const std::filesystem::path& claim, std::vector<std::string>& words) {
+  const std::vector<std::string> by_name = words;
+  for (const std::string& word : read_claim_file(claim)) {
+    if (!asks(by_name, field_of(word))) words.push_back(word);
+  }
 }
 
 void ask_for_all_windows(const std::filesystem::path& run, std::vector<std::string>& words,

@@ -9,11 +9,13 @@
 #include <thread>
 #include <utility>
 
+#include "certify/process/hdf5_frames.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/proofs/trajectory_pipe.h"
 #include "trajectory/blocks/frames_file.h"
 #include "trajectory/formats/frame_sequence.h"
 #include "trajectory/formats/frames.h"
+#include "trajectory/formats/open_frames.h"
 #include "trajectory/stop.h"
 
 namespace noli {
@@ -115,6 +117,18 @@ bool checkers_read(const std::vector<std::filesystem::path>& frames) {
 std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames) {
   return request.checker == Checker::plain ? on_a_pipe(std::move(request), frames)
                                            : in_a_file(std::move(request), frames);
+}
+
+bool left_to_checkers(const std::vector<std::filesystem::path>& files, const FrameReading& reading) {
+  const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
+  return reading.bodies.empty() && (unknown || checkers_read(files));
+}
+
+CheckerVerdict check_motion(const CheckRequest& request, const FrameReading& reading) {
+  if (left_to_checkers(request.trajectory, reading)) return check_proof(request);
+  auto verdict = check_frames(request, *open_all_frames(request.trajectory, reading));
+  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
+  return *std::move(verdict);
 }
 
 }  // namespace noli

@@ -21,4 +21,12 @@ bool checkers_read(const std::vector<std::filesystem::path>& frames);
 /// Nothing after a stop. Precondition: request.proof. Throws what CheckerProcess and the frames throw.
 std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames);
 
+/// Whether checkers read these files themselves, read so. What holds no frames by its name or first bytes is theirs to
+/// refuse.
+bool left_to_checkers(const std::vector<std::filesystem::path>& files, const FrameReading& reading);
+
+/// The verdict on a proof in a file, about the motion in `request.trajectory` read so, by check_proof() or
+/// check_frames(). Precondition: request.proof. Throws as those; Stopped.
+CheckerVerdict check_motion(const CheckRequest& request, const FrameReading& reading);
+
 }  // namespace noli

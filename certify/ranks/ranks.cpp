@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/ranks/ranks.h"
+#include "certify/ranks/ranks.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -11,14 +11,15 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <noli/errors.h>
 #include <noli/version.h>
-#include "app/ranks/mpi_library.h"
 #include "certify/process/this_program.h"
+#include "certify/ranks/mpi_library.h"
 #include "kernel/parallel.h"
 
-namespace noli::app {
+namespace noli {
 namespace {
 
 int number_in_environment(const char* name) {
@@ -37,7 +38,8 @@ int ranks_in_environment() {
 /// Where it was built, or where it is installed.
 std::filesystem::path library_file() {
   const auto here = beside_this_program("noli_mpi.so");
-  return std::filesystem::exists(here) ? here : beside_this_program(NOLI_MPI_FOLDER) / "noli_mpi.so";
+  std::error_code error;
+  return std::filesystem::exists(here, error) ? here : beside_this_program(NOLI_MPI_FOLDER) / "noli_mpi.so";
 }
 
 std::array<char, NOLI_MPI_PROGRAM_BYTES> this_program() {
@@ -113,6 +115,11 @@ bool Ranks::started_by_mpirun() { return ranks_in_environment() > 1; }
 
 bool Ranks::is_mpi_job() { return ranks_in_environment() > 0; }
 
+bool Ranks::are_installed() {
+  std::error_code error;
+  return std::filesystem::exists(library_file(), error);
+}
+
 std::unique_ptr<Ranks> Ranks::of_this_job() {
   if (!started_by_mpirun()) return nullptr;
   return std::unique_ptr<Ranks>(new Ranks(std::make_unique<Library>(library_file())));
@@ -155,11 +162,11 @@ void Ranks::barrier() {
   require(library_->barrier(&code));
 }
 
-ExitCode Ranks::end(ExitCode code) {
-  auto of_all = static_cast<std::int32_t>(code);
+int Ranks::end(int code) {
+  std::int32_t of_all = code;
   require(library_->barrier(&of_all));
   require(library_->end());
-  return static_cast<ExitCode>(of_all);
+  return of_all;
 }
 
-}  // namespace noli::app
+}  // namespace noli

@@ -5,7 +5,7 @@
 // Tasks are taken from a counter in the memory of rank 0 with MPI_Fetch_and_op. On one machine, and over networks with
 // remote memory access, rank 0 does nothing for it; over others it answers when it calls noli_mpi_serve(). Ranks that
 // wait ask every few milliseconds: MPI's own waiting would take the processors from those that work.
-#include "app/ranks/mpi_library.h"
+#include "certify/ranks/mpi_library.h"
 
 #include <mpi.h>
 

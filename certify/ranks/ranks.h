@@ -6,6 +6,7 @@
 //
 // noli_mpi.so (mpi_library.h) is loaded only in such a job, so that nothing else needs MPI. A rank that ends
 // without end() ends the whole job, with its exit code: finished tasks are on disk, and the same command does the rest.
+// A process is one rank at most, and calls these functions one at a time, unless they say otherwise.
 #pragma once
 
 #include <chrono>
@@ -15,9 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "app/exit_code.h"
-
-namespace noli::app {
+namespace noli {
 
 class Ranks {
  public:
@@ -29,6 +28,8 @@ class Ranks {
   static bool started_by_mpirun();
   /// The same, or as the only one.
   static bool is_mpi_job();
+  /// Whether the library is there.
+  static bool are_installed();
 
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -55,7 +56,7 @@ class Ranks {
   /// Waits until all ranks are here.
   void barrier();
   /// The same, then ends MPI. Returns the exit code of the first rank, in all of them.
-  ExitCode end(ExitCode code);
+  int end(int code);
 
  private:
   struct Library;
@@ -66,4 +67,4 @@ class Ranks {
   std::chrono::steady_clock::time_point served_ = {};
 };
 
-}  // namespace noli::app
+}  // namespace noli

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of `noli verify --shard`, which gives no verdict on all steps: how far one part of them got.
+#pragma once
+
+#include "certify/shards/shards.h"
+#include "report/answer.h"
+
+namespace noli::report {
+
+/// `step_word`: "step" or "window", as messages about this motion say.
+Answer shard_answer(const ShardWork& work, const ShardOutcome& outcome, const char* step_word);
+
+}  // namespace noli::report
