@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <noli/errors.h>
@@ -15,19 +16,14 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/ccd/audit_report.h"
 #include "audit/numerics/self.h"
+#include "audit/numerics/self_report.h"
 #include "certify/process/this_program.h"
 #include "certify/result_file.h"
 #include "certify/stopwatch.h"
-#include "kernel/parallel.h"
 
 namespace noli::app {
 namespace {
-
-using audit::PartState;
-using audit::SelfPart;
-using audit::SelfReport;
 
 constexpr const char* self_footer =
     "Runs everything noli can check about itself: the self-test of its rounding, the labelled queries in $NOLI_DATA, "
@@ -47,70 +43,6 @@ struct SelfArguments {
   OutputOptions results;
   bool require_all = false;
 };
-
-const char* name(PartState state) {
-  switch (state) {
-    case PartState::held: return "held";
-    case PartState::failed: return "failed";
-    case PartState::skipped: return "skipped";
-  }
-  return "";
-}
-
-ExitCode exit_code(const SelfReport& report, bool require_all) {
-  const bool all = report.complete && (!require_all || report.count(PartState::skipped) == 0);
-  return exit_code_of(report.count(PartState::failed) > 0, all && report.count(PartState::held) > 0);
-}
-
-const char* verdict(ExitCode code) {
-  return code == ExitCode::holds ? "holds" : code == ExitCode::refuted ? "finding" : "undecided";
-}
-
-Json self_json(const SelfArguments& arguments, const SelfReport& report, double seconds) {
-  Json json = {{"verdict", verdict(exit_code(report, arguments.require_all))},
-               {"held", report.count(PartState::held)},
-               {"failed", report.count(PartState::failed)},
-               {"skipped", report.count(PartState::skipped)},
-               {"complete", report.complete},
-               {"seed", arguments.options.seed}};
-  json["parts"] = Json::array();
-  Json times = Json::array();
-  for (const SelfPart& part : report.parts) {
-    Json about = {{"group", part.group}, {"name", part.name}, {"state", name(part.state)}, {"words", part.words}};
-    Json time = {{"group", part.group}, {"name", part.name}, {"seconds", part.seconds}};
-    (part.by_clock ? time : about)["figures"] = part.figures;
-    json["parts"].push_back(about);
-    times.push_back(time);
-  }
-  const int threads = arguments.options.threads;
-  json["timing"] = {{"seconds", seconds}, {"threads", threads > 0 ? threads : hardware_threads()}, {"parts", times}};
-  return json;
-}
-
-std::string figures_text(const SelfPart& part) {
-  std::string text;
-  for (const auto& [key, number] : part.figures.items()) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number.dump(), key);
-  }
-  return text;
-}
-
-report::Answer self_answer(const Json& json, const SelfReport& report, double seconds) {
-  report::Answer answer(json, {"parts", "held", "failed", "skipped", "complete"});
-  std::string& text = answer.text;
-  std::vector<audit::TableRow> rows = {{"part", "", "result", "figures", "seconds"}};
-  for (const SelfPart& part : report.parts) {
-    rows.push_back({part.group, part.name, name(part.state), figures_text(part), fmt::format("{:.1f}", part.seconds)});
-  }
-  text += audit::table_text(rows, 4);
-  const auto out = std::back_inserter(text);
-  for (const SelfPart& part : report.parts) {
-    if (part.state == PartState::held) continue;
-    fmt::format_to(out, "{}: {} {}: {}\n", name(part.state), part.group, on_one_line(part.name), part.words);
-  }
-  fmt::format_to(out, "Time: {:.1f} s.\n", seconds);
-  return answer;
-}
 
 /// What NOLI_DATA names, unless the command line does.
 std::optional<std::filesystem::path> data_folder(const std::optional<std::string>& given) {
@@ -134,11 +66,12 @@ ExitCode run(SelfArguments& arguments) {
   require_writable_folder(arguments.out, "--out");
   options.begun = [](const std::string& part) { std::fputs(fmt::format("noli: {}\n", part).c_str(), stderr); };
   const Stopwatch watch;
-  const SelfReport report = audit::audit_self(options);
+  const audit::SelfReport report = audit::audit_self(options);
   const double seconds = watch.seconds();
-  const Json json = self_json(arguments, report, seconds);
-  output.write("audit-self", self_answer(json, report, seconds), json);
-  return exit_code(report, arguments.require_all);
+  const std::string_view verdict = audit::self_verdict(report, arguments.require_all);
+  const Json json = audit::self_json(options, report, verdict, seconds);
+  output.write("audit-self", audit::self_answer(json, report, seconds), json);
+  return exit_code_of(verdict == "finding", verdict == "holds");
 }
 
 }  // namespace
