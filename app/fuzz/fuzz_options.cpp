@@ -94,18 +94,4 @@ ExitCode tell_replay(const Output& output, const ReplayResult& judged, const cha
   return fuzz_exit_code(judged.unknown, finding);
 }
 
-std::string finding_line(const audit::FuzzFinding& finding, const char* item, const std::string& more) {
-  return fmt::format("finding: {}, block {}, {} {}: {}; {}\n", finding.generator, finding.block, item, finding.index,
-                     on_one_line(more + finding.difference),
-                     finding.place.empty() ? "not saved" : "saved as " + on_one_line(finding.place.string()));
-}
-
-Json finding_json(const audit::FuzzFinding& finding, const char* place) {
-  return {{"generator", finding.generator},
-          {"block", finding.block},
-          {"index", finding.index},
-          {"difference", finding.difference},
-          {place, finding.place.string()}};
-}
-
 }  // namespace noli::app

@@ -77,37 +77,23 @@ struct ReplayResult {
 /// Writes it as a result of the schema "fuzz-replay". `place`: the JSON member with the path of what was saved.
 ExitCode tell_replay(const Output& output, const ReplayResult& judged, const char* place = "folder");
 
-/// "finding: GENERATOR, block 3, scene 7: DIFFERENCE; saved as PLACE", one line; `item` is "scene", and `more` comes
-/// before the difference.
-std::string finding_line(const audit::FuzzFinding& finding, const char* item, const std::string& more = "");
-
-/// {"generator": "", "block": 3, ...}. `place`: the JSON member with the path of the finding.
-Json finding_json(const audit::FuzzFinding& finding, const char* place);
-
-/// What the result of a fuzzer is called.
-struct FuzzResultNames {
-  const char* work;                ///< "fuzz scenes", for the progress
-  const char* schema;              ///< of the JSON
-  std::vector<std::string> pairs;  ///< members of the JSON that the answer has
-};
-
-/// Runs fuzz(options), shows how far it is, and writes the result: json_of(report), to which `timing` is added, and
-/// text_of(report). Throws WriteError when not all that was found could be saved.
-template <class Options, class Fuzz, class JsonOf, class TextOf>
-ExitCode run_fuzzer(const FuzzResultNames& names, const Output& output, Options& options, const Fuzz& fuzz,
-                    const JsonOf& json_of, const TextOf& text_of) {
+/// Runs fuzz(options), shows how far it is, and writes the result as its report in audit/fuzz/ has it: fuzz_json(), to
+/// which `timing` is added, fuzz_pairs() and fuzz_text(). `work`: the label of the progress. Throws WriteError when not
+/// all that was found could be saved.
+template <class Options, class Fuzz>
+ExitCode run_fuzzer(const char* work, const char* schema, const Output& output, Options& options, const Fuzz& fuzz) {
   const Stopwatch watch;
-  const auto report = with_progress(names.work, [&](const auto& show) {
+  const auto report = with_progress(work, [&](const auto& show) {
     options.limits.progress = show;
     return fuzz(options);
   });
   const double seconds = watch.seconds();
   const int threads = options.limits.threads;
-  Json json = json_of(report);
+  Json json = fuzz_json(options, report);
   json["timing"] = {{"seconds", seconds}, {"threads", threads > 0 ? threads : hardware_threads()}};
-  report::Answer answer(json, names.pairs);
-  answer.text = text_of(report) + fmt::format("Time: {:.1f} s.\n", seconds);
-  output.write(names.schema, answer, json);
+  report::Answer answer(json, fuzz_pairs(report));
+  answer.text = fuzz_text(options, report) + fmt::format("Time: {:.1f} s.\n", seconds);
+  output.write(schema, answer, json);
   report.not_saved.require_nothing();
   return fuzz_exit_code(report.undecided(), report.findings_total > 0);
 }

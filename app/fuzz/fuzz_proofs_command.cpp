@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include <noli/errors.h>
@@ -11,16 +12,11 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
-#include "audit/fuzz/proofs/fuzz_proofs.h"
+#include "audit/fuzz/proofs/fuzz_proofs_report.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
-#include "audit/fuzz/shape_corpus.h"
-#include "audit/fuzz/trajectories/motion_generators.h"
-#include "certify/json.h"
-#include "certify/process/scratch_folder.h"
-#include "certify/process/this_program.h"
+#include "audit/fuzz/proofs/proof_cases.h"
 #include "certify/proofs/checker.h"
 #include "certify/result_file.h"
-#include "trajectory/text.h"
 
 namespace noli::app {
 namespace {
@@ -50,135 +46,9 @@ struct ProofsArguments {
   std::uint64_t verified_every = 50;
 };
 
-/// Of a proof and its trajectory, which the checker has to take.
-audit::ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory) {
-  const std::string bytes = read_whole_file(proof);
-  const CheckerVerdict said =
-      check_proof({.proof = proof, .trajectory = trajectory, .asked = audit::own_claim(bytes), .stop = &interrupted()});
-  if (said.code == 3) {
-    throw InputError(proof.string(), "", "expected a proof that holds: " + first_line(said.words));
-  }
-  audit::ProofCase made;
-  made.name = proof.filename().string();
-  made.proof = bytes;
-  made.groups = parse_proof(made.proof, proof.string());
-  made.extension = trajectory[0].extension().string().substr(1);
-  for (const fs::path& file : trajectory) made.files.push_back(read_whole_file(file));
-  made.refutes = said.code == 1;
-  return made;
-}
-
-/// The proof or witness that `noli verify` writes of a motion with some claim; nothing if it writes none, as for some
-/// degenerate contacts, or if the user would not wait.
-std::optional<audit::ProofCase> made_case(const audit::FrameMotion& motion, const std::vector<std::string>& claim) {
-  const ScratchFolder work_folder(ScratchFolder::Place::memory);
-  const fs::path proof = work_folder.path() / "proof.noli";
-  const std::vector<fs::path> files = audit::write_frames(motion, work_folder.path());
-  std::vector<std::string> words = {
-      this_program_file().string(), "verify", "--threads", "1", "--no-check", "--force", "--proof", proof};
-  if (motion.at_rest()) words.emplace_back("--static");
-  words.insert(words.end(), claim.begin(), claim.end());
-  for (const fs::path& file : files) words.push_back(file);
-  ProgramLimits limits;
-  limits.stop = stop_by(&interrupted());
-  const ProgramEnd end = run_program(words, limits);
-  if (!end.exited_with(0) && !end.exited_with(1)) return std::nullopt;
-  try {
-    return read_case(proof, files);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
-/// Proofs and witnesses of small motions, with all sorts of claims.
-std::vector<audit::ProofCase> made_cases() {
-  const std::vector<std::vector<std::string>> claims = {{},
-                                                        {"--strict"},
-                                                        {"--points"},
-                                                        {"--min-distance", "1e-9"},
-                                                        {"--min-distance", "1e-6", "--min-distance-from-ring", "2"}};
-  constexpr std::size_t motions = 60, most_cells = 12;
-  const auto generators = audit::motion_generators();
-  audit::Random random(1);
-  std::vector<audit::ProofCase> cases;
-  for (std::size_t i = 0; i < motions && !interrupted(); ++i) {
-    const audit::MotionGenerator& generator = generators[i % generators.size()];
-    const audit::FrameMotion motion = generator.make(random).motion;
-    if (motion.mesh.cell_count() > most_cells) continue;
-    auto made = made_case(motion, claims[i % claims.size()]);
-    if (!made) continue;
-    made->name = fmt::format("{} {}", generator.name, i);
-    cases.push_back(std::move(*made));
-  }
-  return cases;
-}
-
-Json tally_json(const audit::CodeTally& tally) {
-  return {
-      {"accepted", tally.accepted}, {"refuted", tally.refuted}, {"rejected", tally.rejected}, {"failed", tally.failed}};
-}
-
-Json report_json(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
-  Json json = {{"verdict", report.verdict()},
-               {"seed", arguments.common.limits.seed},
-               {"mutants", report.items},
-               {"findings", report.findings_total},
-               {"proofs", cases},
-               {"checked_verified", report.checked_verified},
-               {"judged", report.judged},
-               {"not_judged", report.not_judged},
-               {"corpus", report.corpus_size},
-               {"codes", tally_json(report.codes)}};
-  json["mutations"] = Json::object();
-  for (const auto& [name, tally] : report.mutations) json["mutations"][name] = tally_json(tally);
-  json["reports"] = Json::array();
-  for (const auto& finding : report.findings) {
-    json["reports"].push_back({{"proof", finding.generator},
-                               {"mutations", finding.mutations},
-                               {"block", finding.block},
-                               {"index", finding.index},
-                               {"difference", finding.difference},
-                               {"folder", finding.place.string()}});
-  }
-  return json;
-}
-
-std::string report_text(const ProofsArguments& arguments, const audit::ProofFuzzReport& report, std::size_t cases) {
-  std::string text;
-  for (const auto& finding : report.findings)
-    text += finding_line(finding, "mutant", finding.mutations.empty() ? "" : finding.mutations + ": ");
-  for (const auto& [name, tally] : report.mutations) {
-    text += fmt::format("  {:26} accepted {:7} refuted {:7} rejected {:7} failed {:7}\n", name, tally.accepted,
-                        tally.refuted, tally.rejected, tally.failed);
-  }
-  if (arguments.common.corpus) text += fmt::format("Corpus: {} proofs.\n", report.corpus_size);
-  return text + fmt::format("Proofs: {}. The verified checker looked at {} mutants. Not judged: {}.\n", cases,
-                            report.checked_verified, report.not_judged);
-}
-
-/// The proof that was given, or those that are made. Fewer if the user would not wait: then there are no mutants, and
-/// that is told as undecided.
-std::vector<audit::ProofCase> cases(const ProofsArguments& arguments) {
-  try {
-    if (arguments.files.empty()) return made_cases();
-    return {
-        read_case(arguments.files[0], trajectory_for_checker({arguments.files.begin() + 1, arguments.files.end()}))};
-  } catch (const Stopped&) {
-    return {};
-  }
-}
-
-/// Of the checkers that lie beside this program.
-audit::MakeCheckers checkers_beside() {
-  const fs::path verified = beside_this_program("noli_check_verified");
-  const bool has_verified = fs::exists(verified);
-  if (!has_verified) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
-  return [verified, has_verified] {
-    ProgramLimits limits;
-    limits.stop = stop_by(&interrupted());
-    return audit::Checkers{audit::hosted_checker(beside_this_program("noli_check_host"), std::chrono::seconds(20)),
-                           has_verified ? audit::program_checker(verified, limits) : nullptr};
-  };
+audit::MakeCheckers make_checkers() {
+  if (!has_checker(Checker::verified)) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
+  return audit::checkers_beside_this_program(interrupted());
 }
 
 ExitCode run(ProofsArguments& arguments) {
@@ -187,17 +57,10 @@ ExitCode run(ProofsArguments& arguments) {
   audit::ProofFuzzOptions options;
   set_common(options, arguments.common);
   options.verified_every = arguments.verified_every;
-  options.make_checkers = checkers_beside();
-  options.cases = cases(arguments);
+  options.make_checkers = make_checkers();
+  options.cases = audit::proof_cases(arguments.files, interrupted());
   if (options.cases.empty() && !interrupted()) throw std::runtime_error("no proof could be made to begin with");
-  return run_fuzzer(
-      {"fuzz proofs",
-       "fuzz-proofs",
-       {"mutants", "findings", "accepted=codes/accepted", "refuted=codes/refuted", "rejected=codes/rejected",
-        "failed=codes/failed", "judged", "seed"}},
-      output, options, audit::fuzz_proofs,
-      [&](const auto& report) { return report_json(arguments, report, options.cases.size()); },
-      [&](const auto& report) { return report_text(arguments, report, options.cases.size()); });
+  return run_fuzzer("fuzz proofs", "fuzz-proofs", output, options, audit::fuzz_proofs);
 }
 
 /// A saved proof again, as it is or made smaller.
@@ -208,7 +71,7 @@ ExitCode replay(const ProofsArguments& arguments) {
   const Output output(arguments.common.results, saved_files(arguments.replay.saved()));
   if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   audit::JudgedProof proof{audit::read_proof_files(arguments.replay.saved()), {}};
-  const audit::Checkers checkers = checkers_beside()();
+  const audit::Checkers checkers = make_checkers()();
   proof.judgement = audit::judge_proof(proof.files, checkers);
   const bool finding = !proof.judgement.difference.empty();
   std::optional<fs::path> saved;
@@ -219,14 +82,10 @@ ExitCode replay(const ProofsArguments& arguments) {
     audit::save_finding(proof.files, what, proof.judgement.difference, *saved);
   }
   const audit::ProofJudgement& judged = proof.judgement;
-  const char* const claim = !judged.truth ? "not_judged" : *judged.truth ? "true" : "false";
   return tell_replay(output, {.unknown = judged.stopped || interrupted(),
                               .difference = finding ? std::optional(judged.difference) : std::nullopt,
                               .saved = saved,
-                              .facts = {{"plain", word_of(judged.plain)},
-                                        {"words", judged.plain.words},
-                                        {"verified", judged.verified ? word_of(*judged.verified) : "not_asked"},
-                                        {"claim", claim}},
+                              .facts = audit::proof_facts(judged),
                               .pairs = {"plain", "verified", "claim"},
                               .text = judged.plain.words.empty() ? "" : on_one_line(judged.plain.words) + '\n',
                               .about_saved = fmt::format(", a proof of {} bytes", proof.files.proof.size())});

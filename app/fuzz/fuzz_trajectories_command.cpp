@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include <noli/errors.h>
+#include "app/audit/library_options.h"
 #include "app/commands.h"
-#include "app/fuzz/fuzz_library_motions_run.h"
 #include "app/fuzz/fuzz_options.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"
+#include "audit/fuzz/trajectories/fuzz_trajectories_report.h"
 #include "audit/fuzz/trajectories/motion_generators.h"
+#include "audit/fuzz/trajectories/replay_motion.h"
 #include "audit/fuzz/trajectories/verify_program.h"
 #include "certify/json.h"
 #include "certify/result_file.h"
-#include "trajectory/write_file.h"
 
 namespace noli::app {
 namespace {
@@ -42,106 +44,92 @@ constexpr const char* trajectories_footer =
     "  noli fuzz trajectories --replay fuzz-findings/seed1-block3-index7-border\n"
     "  noli fuzz trajectories --minimise fuzz-findings/seed1-block3-index7-border --out smaller\n";
 
-struct TrajectoriesArguments : LibraryMotionArguments {
+struct TrajectoriesArguments {
+  FuzzArgumentsInCommon common;
+  ReplayArguments replay;
+  LibraryArguments theirs;
+  std::size_t max_findings = 20;
+  std::vector<std::string> families;  ///< names of generators; none: all of them
   std::uint64_t verified_every = 1;
 };
 
-std::uint64_t undecided(const audit::TrajectoryReport& report) {
-  std::uint64_t count = 0;
-  for (const audit::TrajectoryTally& generator : report.generators) count += generator.undecided;
-  return count;
+/// {"noli", "fuzz", "trajectories", "--library", "./mine.so", "--tolerance", "1e-06", "--replay"}, without the folder.
+std::vector<std::string> replay_command(const LibraryArguments& library) {
+  std::vector<std::string> words = {"noli", "fuzz", "trajectories"};
+  const std::vector<std::string> more = library_words(library);
+  words.insert(words.end(), more.begin(), more.end());
+  words.emplace_back("--replay");
+  return words;
 }
 
-Json report_json(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
-  Json json = {{"verdict", report.verdict()},
-               {"seed", arguments.common.limits.seed},
-               {"trajectories", report.items},
-               {"findings", report.findings_total},
-               {"undecided", undecided(report)},
-               {"checked", {{"plain", report.checked_plain}, {"verified", report.checked_verified}}},
-               {"shapes", report.shapes},
-               {"corpus", report.corpus_size}};
-  json["reports"] = Json::array();
-  for (const auto& finding : report.findings) json["reports"].push_back(finding_json(finding, "folder"));
-  json["generators"] = Json::array();
-  for (const auto& generator : report.generators) {
-    json["generators"].push_back({{"name", generator.name},
-                                  {"apart", generator.apart},
-                                  {"contact", generator.contact},
-                                  {"without_witness", generator.without_witness},
-                                  {"undecided", generator.undecided}});
-  }
-  return json;
+/// Copies the options that both kinds have, and runs a fuzzer.
+template <class Options, class Fuzz>
+ExitCode fuzz(const TrajectoriesArguments& arguments, Options& options, const Output& output, const char* schema,
+              const Fuzz& fuzzer) {
+  set_common(options, arguments.common);
+  options.families = arguments.families;
+  options.max_findings = arguments.max_findings;
+  options.replay_command = replay_command(arguments.theirs);
+  return run_fuzzer("fuzz trajectories", schema, output, options, fuzzer);
 }
 
-std::string report_text(const TrajectoriesArguments& arguments, const audit::TrajectoryReport& report) {
-  std::string text;
-  for (const auto& finding : report.findings) text += finding_line(finding, "motion");
-  for (const auto& generator : report.generators) {
-    text += fmt::format("  {:12} apart {:6} contact {:6} without_witness {}\n", generator.name, generator.apart,
-                        generator.contact, generator.without_witness);
-  }
-  if (arguments.common.corpus) text += fmt::format("Corpus: {} motions.\n", report.corpus_size);
-  return text + fmt::format("The verified checker looked at {} proofs. Not decided in time: {}. Shapes: {}.\n",
-                            report.checked_verified, undecided(report), report.shapes);
-}
-
-ExitCode fuzz(TrajectoriesArguments& arguments) {
+ExitCode fuzz_noli(TrajectoriesArguments& arguments) {
   const Output output = begin_fuzzing(arguments.common, {});
   audit::VerifyProgram subject(arguments.verified_every, interrupted());
   if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
   audit::TrajectoryOptions options;
-  set_common(options, arguments.common);
-  options.families = arguments.families;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
-  options.max_findings = arguments.max_findings;
-  options.replay_command = {"noli", "fuzz", "trajectories", "--replay"};
-  return run_fuzzer(
-      {"fuzz trajectories", "fuzz-trajectories", {"trajectories", "findings", "checked=checked/plain", "seed"}}, output,
-      options, audit::fuzz_trajectories, [&](const auto& report) { return report_json(arguments, report); },
-      [&](const auto& report) { return report_text(arguments, report); });
+  return fuzz(arguments, options, output, "fuzz-trajectories", audit::fuzz_trajectories);
+}
+
+ExitCode fuzz_library(TrajectoriesArguments& arguments) {
+  const Output output = begin_fuzzing(arguments.common, {arguments.theirs.asked.path});
+  audit::LibraryMotionOptions options;
+  options.asked = arguments.theirs.asked;
+  options.first_only = arguments.theirs.first_only;
+  return fuzz(arguments, options, output, "fuzz-library-trajectories", audit::fuzz_library_motions);
 }
 
 /// A saved motion again, as it is or made smaller.
 ExitCode replay(const TrajectoriesArguments& arguments) {
   const fs::path folder = arguments.replay.saved();
-  const Output output(arguments.common.results, saved_files(folder));
-  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
+  const bool asks_a_library = arguments.theirs.asks_a_library(), smaller = arguments.replay.minimise.has_value();
+  const audit::LibraryUnderTest& library = arguments.theirs.asked;
+  std::vector<fs::path> inputs = saved_files(folder);
+  if (asks_a_library) inputs.push_back(library.path);
+  const Output output(arguments.common.results, inputs);
+  if (smaller) require_writable_folder(arguments.common.out, "--out");
   audit::FrameMotion motion = audit::read_frames(folder);
-  audit::VerifyProgram subject(1, interrupted());
-  bool undecided = false;  // the last one, in the time that there was
-  const auto decide = [&](const audit::FrameMotion& one) {
-    audit::MotionAnswer answer = subject(one);
-    undecided = answer.undecided;
-    return answer;
-  };
-  const auto what = [&](const audit::FrameMotion& candidate) {
-    return audit::difference(candidate, decide, &interrupted());
-  };
-  auto found = what(motion);
+  const audit::ReplayedMotion judged = asks_a_library ? audit::replay_motion(library, std::move(motion), smaller)
+                                                      : audit::replay_motion(std::move(motion), smaller, interrupted());
+  const std::vector<std::string> command = replay_command(arguments.theirs);
   std::optional<fs::path> saved;
-  if (found && arguments.replay.minimise) {
-    const std::string kind(audit::kind_of(*found));
-    motion = audit::minimise(
-        motion, [&](const audit::FrameMotion& candidate) { return audit::is_of_kind(what(candidate), kind); }, 5000);
-    if (auto still = what(motion)) found = std::move(still);
+  if (judged.difference && smaller) {
     saved = minimised_folder(arguments.common, folder);
-    const std::vector<std::string> command = {"noli", "fuzz", "trajectories", "--replay"};
-    audit::save_motion(motion, *found, command, *saved);
+    audit::save_motion(judged.motion, *judged.difference, command, *saved);
   }
-  return tell_replay(output, {.unknown = interrupted() || (undecided && !found),
-                              .difference = found,
-                              .saved = saved,
-                              .facts = motion_facts(motion),
-                              .pairs = {"frames", "cells", "vertices"}});
+  Json facts = Json::object();
+  if (asks_a_library) facts["library"] = library.path.string();
+  facts.update(audit::motion_facts(judged.motion));
+  return tell_replay(
+      output, {.unknown = interrupted() || (judged.undecided && !judged.difference),
+               .difference = judged.difference,
+               .saved = saved,
+               .facts = facts,
+               .pairs = {"frames", "cells", "vertices"},
+               .about_saved = saved && asks_a_library ? "\n  again: " + audit::replay_line(command, *saved) : ""});
 }
 
 ExitCode run(TrajectoriesArguments& arguments) {
-  const bool saved = arguments.replay.given();
-  if (arguments.theirs.asks_a_library()) {
-    return saved ? replay_motion_of_library(arguments) : fuzz_motions_of_library(arguments);
+  const bool asks_a_library = arguments.theirs.asks_a_library();
+  if (asks_a_library) {
+    settle_library(arguments.theirs);
+    audit::HostOptions& host = arguments.theirs.asked.host;
+    host.repeat_seconds = 0.01;  // for one step of a small mesh: thousands of calls
+    host.search_limit = 1;       // the same
   }
-  return saved ? replay(arguments) : fuzz(arguments);
+  if (arguments.replay.given()) return replay(arguments);
+  return asks_a_library ? fuzz_library(arguments) : fuzz_noli(arguments);
 }
 
 }  // namespace

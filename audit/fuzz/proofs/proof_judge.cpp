@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <noli/errors.h>
 #include "audit/fuzz/proofs/claim_oracle.h"
 #include "audit/fuzz/shape_corpus.h"
+#include "certify/process/this_program.h"
+#include "certify/proofs/checker.h"
 #include "certify/proofs/parsed_claim.h"
 #include "trajectory/formats/frames.h"
 
@@ -109,6 +112,15 @@ class ProofJudge {
 };
 
 }  // namespace
+
+MakeCheckers checkers_beside_this_program(const std::atomic<bool>& stop) {
+  return [&stop, has_verified = has_checker(Checker::verified)] {
+    ProgramLimits limits;
+    limits.stop = stop_by(&stop);
+    return Checkers{hosted_checker(beside_this_program("noli_check_host"), std::chrono::seconds(20)),
+                    has_verified ? program_checker(beside_this_program("noli_check_verified"), limits) : nullptr};
+  };
+}
 
 ProofFiles files_of(const ProofCase& from, const ProofMutant& mutant) {
   return {mutant.proof, from.extension, mutant.files.value_or(from.files)};

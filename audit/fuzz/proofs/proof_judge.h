@@ -10,6 +10,7 @@
 // run is not judged, the checkers are only compared.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,6 +29,10 @@ struct Checkers {
 
 /// Called by each thread that asks.
 using MakeCheckers = std::function<Checkers()>;
+
+/// noli_check_host, and noli_check_verified if it is there, beside this program. The verified checker ends early when
+/// `stop` is set.
+MakeCheckers checkers_beside_this_program(const std::atomic<bool>& stop);
 
 /// What came of one proof.
 struct ProofJudgement {

@@ -165,7 +165,9 @@ std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& re
   return text + '\n';
 }
 
-Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
+std::vector<std::string> fuzz_pairs(const QueryFuzzReport& /*report*/) { return {"queries", "findings", "seed"}; }
+
+Json fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
   Json json = {{"verdict", report.verdict()},
                {"library", options.asked.path.string()},
                {"tolerance", options.asked.tolerance},
@@ -191,7 +193,7 @@ Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzRepor
   return json;
 }
 
-std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
+std::string fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report) {
   std::string text;
   for (const auto& finding : report.findings) {
     const std::size_t distinct = distinct_coordinates(finding.shrunk);
@@ -203,7 +205,7 @@ std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFu
   return text + "Generators (what each attacks):\n" + generators_text(options, report);
 }
 
-std::vector<std::string> library_fuzz_pairs() {
+std::vector<std::string> fuzz_pairs(const LibraryFuzzReport& /*report*/) {
   std::vector<std::string> names = {"queries", "contacts", "findings"};
   for (const LibraryFault fault : faults) names.push_back(fmt::format("{0}=faults/{0}", name(fault)));
   names.emplace_back("seed");

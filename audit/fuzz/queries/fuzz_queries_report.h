@@ -15,10 +15,11 @@ namespace noli::audit {
 /// Without `timing`. Precondition here and below: the options have the command that asks a finding again.
 Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report);
 std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& report);
-
-Json library_fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
-std::string library_fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
 /// Members of that JSON for the line of --porcelain.
-std::vector<std::string> library_fuzz_pairs();
+std::vector<std::string> fuzz_pairs(const QueryFuzzReport& report);
+
+Json fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
+std::string fuzz_text(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);
+std::vector<std::string> fuzz_pairs(const LibraryFuzzReport& report);
 
 }  // namespace noli::audit

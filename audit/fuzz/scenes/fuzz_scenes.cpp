@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <chrono>
 #include <utility>
 
 #include <noli/errors.h>
 #include "audit/fuzz/save_finding.h"
 #include "certify/process/scratch_folder.h"
+#include "certify/process/this_program.h"
 #include "integrator/scene/json_text.h"
 #include "trajectory/blocks/sha256.h"
 #include "trajectory/text.h"
@@ -239,11 +241,35 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
 
 }  // namespace
 
+RunNoli run_this_program(const std::atomic<bool>& stop) {
+  require_startable(beside_this_program("noli_check").string());
+  return [noli = this_program_file().string(), &stop](const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {noli};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    ProgramLimits limits;
+    limits.stop = stop_by(&stop);
+    limits.time = std::chrono::seconds(120);
+    return run_program(std::move(words), limits);
+  };
+}
+
 SceneJson read_saved_scene(const fs::path& file) {
   return integrator::parse_json(read_whole_file(file), file.string());
 }
 
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli) { return SceneJudge(scene, noli).judge(); }
+
+ReplayedScene replay_scene(GeneratedScene scene, bool smaller, const RunNoli& noli) {
+  const auto judge = [&](const SceneJson& candidate) { return judge_scene({candidate, scene.wrong_place}, noli); };
+  SceneJudgement judgement = judge(scene.scene);
+  if (judgement.difference && smaller) {
+    const std::string kind(kind_of(*judgement.difference));
+    scene.scene = minimise(
+        scene.scene, [&](const SceneJson& candidate) { return is_of_kind(judge(candidate).difference, kind); }, 1000);
+    if (SceneJudgement last = judge(scene.scene); last.difference) judgement = std::move(last);
+  }
+  return {std::move(scene.scene), std::move(judgement)};
+}
 
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options) { return SceneFuzzing(options).run(); }
 

@@ -15,6 +15,7 @@
 // What this does not do: it does not look whether the physics is right.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -31,6 +32,10 @@ namespace noli::audit {
 
 /// Runs `noli` with these arguments. Called from several threads at once.
 using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
+
+/// Runs this program for at most 120 seconds, until `stop` is set. Throws std::system_error when the checker that it
+/// starts is not there: each scene would be a finding.
+RunNoli run_this_program(const std::atomic<bool>& stop);
 
 struct SceneFuzzOptions : FuzzSettings {
   RunNoli noli;
@@ -66,6 +71,14 @@ SceneJson read_saved_scene(const std::filesystem::path& file);
 
 /// Simulates, verifies, checks and resumes the scene in a temporary folder.
 SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli);
+
+struct ReplayedScene {
+  SceneJson scene;  ///< smaller if that was asked for and something is wrong with it
+  SceneJudgement judgement;
+};
+
+/// A saved scene again. `smaller`: it is made smaller if something is wrong.
+ReplayedScene replay_scene(GeneratedScene scene, bool smaller, const RunNoli& noli);
 
 /// A scene for which `fails` holds and that is not simpler without one of its members, or with a shorter number. Stops
 /// early after so many calls. Precondition: fails(scene).
