@@ -15,8 +15,8 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/progress.h"
-#include "certify/runs/run_folder.h"
 #include "report/figures/contact_export.h"
+#include "report/figures/export_report.h"
 #include "report/figures/repair_picture.h"
 #include "report/figures/run_figure.h"
 #include "report/figures/run_picture.h"
@@ -41,8 +41,6 @@ constexpr const char* export_footer =
     "  noli export runs/cloth --fps 24 -o film/%04d.png --size 1280x720   a film\n"
     "  noli export runs/cloth --figure step-histogram -o steps.svg   or steps.csv\n";
 
-constexpr const char* open_window_is_left_out = "The run ends in a window that was never committed; it is left out.\n";
-
 struct ExportArguments {
   ExportRequest frames;
   bool fps_given = false;
@@ -56,21 +54,12 @@ struct ExportArguments {
 };
 
 ExitCode draw(const report::FigureRequest& request) {
-  const report::FigureOutcome outcome = report::run_figure(request);
-  report::Answer answer("written");
-  if (outcome.open_window) answer.text = open_window_is_left_out;
-  answer.place = fmt::format("{}  {} of {} windows, up to {} s", on_one_line(request.output), request.figure,
-                             outcome.windows, outcome.end);
-  write_words(answer);
+  write_words(report::figure_answer(request, report::run_figure(request)));
   return ExitCode::holds;
 }
 
 ExitCode paint(const report::PictureRequest& request) {
-  const report::PictureOutcome outcome = report::run_picture(request);
-  report::Answer answer("written");
-  answer.place = fmt::format("{}  {} x {} pixels, at {} s", on_one_line(request.output.string()), outcome.width,
-                             outcome.height, outcome.time);
-  write_words(answer);
+  write_words(report::picture_answer(request, report::run_picture(request)));
   return ExitCode::holds;
 }
 
@@ -99,12 +88,8 @@ ExitCode show_repair(const ExportArguments& arguments) {
   if (arguments.contact) throw UsageError("--contact: applies to results of noli verify; drop it for noli repair");
   require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   const report::PictureView view{arguments.from, size_of(arguments.size), arguments.zoom};
-  const report::PictureOutcome shown =
-      report::repair_picture({request.run, *arguments.at, arguments.given, view, request.pattern});
-  report::Answer answer("written");
-  answer.place = fmt::format("{}  {} at {} steps, {} x {} pixels", on_one_line(request.pattern),
-                             arguments.given ? "as given" : "repaired", shown.time, shown.width, shown.height);
-  write_words(answer);
+  const report::RepairPictureRequest picture{request.run, *arguments.at, arguments.given, view, request.pattern};
+  write_words(report::repair_picture_answer(picture, report::repair_picture(picture)));
   return ExitCode::holds;
 }
 
@@ -123,29 +108,10 @@ ExitCode show_contact(const ExportArguments& arguments) {
     throw UsageError("--from, --size: are for pictures; expected -o with a name that ends in .png");
   }
   require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
-  const report::ContactExport shown = report::export_contact(
-      {request.run, arguments.contact.value_or(0), {arguments.from, size_of(arguments.size), ""}, request.pattern});
-  report::Answer answer("written");
-  answer.text = picture ? "Red: cells of the first feature. Yellow: cells of the second.\n"
-                        : "The cell array \"contact\": 1 for cells of the first feature, 2 for cells of the second.\n";
-  answer.place = fmt::format("{}  step {} at t = {}, {} cells marked", on_one_line(request.pattern), shown.step,
-                             shown.time, shown.cells);
-  write_words(answer);
+  const report::ContactExportRequest contact{
+      request.run, arguments.contact.value_or(0), {arguments.from, size_of(arguments.size), ""}, request.pattern};
+  write_words(report::contact_answer(contact, report::export_contact(contact)));
   return ExitCode::holds;
-}
-
-report::Answer export_answer(const ExportRequest& request, const ExportOutcome& outcome) {
-  report::Answer answer(outcome.interrupted ? "interrupted" : "written");
-  if (!outcome.pvd.empty()) answer.text += fmt::format("ParaView opens the series: {}\n", on_one_line(outcome.pvd));
-  if (outcome.removed > 0) answer.text += fmt::format("Removed: {} files of an earlier export.\n", outcome.removed);
-  if (outcome.recorded) {
-    answer.text += "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n";
-  }
-  if (outcome.open_window) answer.text += open_window_is_left_out;
-  answer.text += "Straight lines between these frames are not the certified motion; the world lines of the run are.\n";
-  answer.place = fmt::format("{}  {} frames of {} windows, up to {} s", on_one_line(request.pattern), outcome.frames,
-                             outcome.windows, outcome.end);
-  return answer;
 }
 
 ExitCode run(const ExportArguments& arguments) {
@@ -177,7 +143,7 @@ ExitCode run(const ExportArguments& arguments) {
   told.progress = [&](double share) { bars->show("export", share); };
   const ExportOutcome outcome = film ? report::run_film({told, view}) : run_export(told);
   bars.reset();
-  write_words(export_answer(request, outcome));
+  write_words(report::export_answer(request, outcome));
   return outcome.interrupted ? ExitCode::undecided : ExitCode::holds;
 }
 

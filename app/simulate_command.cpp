@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <limits>
 #include <memory>
 #include <string>
@@ -13,7 +11,6 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "app/progress.h"
-#include "certify/runs/run_folder.h"
 #include "report/simulate_report.h"
 
 namespace noli::app {
@@ -64,18 +61,10 @@ struct SimulateArguments {
 ExitCode reproduce(const SimulateArguments& arguments) {
   const SimulateRequest& request = arguments.request;
   const Output output(arguments.results, {request.scene, *arguments.reproduce}, {{"-o", request.run}});
-  const ReproduceOutcome outcome =
-      run_reproduce({request.scene, request.brief, *arguments.reproduce, arguments.window, request.run});
-  const Json json = {{"verdict", outcome.same ? "same" : "different"},
-                     {"window", arguments.window},
-                     {"breakpoints", outcome.breakpoints},
-                     {"sha256", hex(outcome.found)},
-                     {"expected", hex(outcome.expected)}};
-  report::Answer answer(json, {"window", "breakpoints"});
-  answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
-                            outcome.same ? "The window of the run" : "A different window from the run's",
-                            hex(outcome.found), on_one_line(request.run.string()));
-  output.write("reproduce", answer, json);
+  const ReproduceRequest again{request.scene, request.brief, *arguments.reproduce, arguments.window, request.run};
+  const ReproduceOutcome outcome = run_reproduce(again);
+  const Json json = report::reproduce_json(again, outcome);
+  output.write("reproduce", report::reproduce_answer(json, again), json);
   return outcome.same ? ExitCode::holds : ExitCode::refuted;
 }
 

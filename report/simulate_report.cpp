@@ -13,6 +13,7 @@
 #include "certify/simulate/phase_clock.h"
 #include "kernel/parallel.h"
 #include "report/page/report_page.h"
+#include "trajectory/blocks/sha256.h"
 
 namespace noli::report {
 namespace {
@@ -282,6 +283,22 @@ Answer simulate_answer(const Json& json, const SimulateRequest& request, const S
       rate(static_cast<double>(outcome.events), outcome.simulating_seconds), outcome.breakpoints,
       outcome.verifying_seconds, static_cast<double>(peak_memory_bytes()) / 1e6);
   answer.details += fmt::format("Busy with: {}.\n", phases_text(outcome.phases));
+  return answer;
+}
+
+Json reproduce_json(const ReproduceRequest& request, const ReproduceOutcome& outcome) {
+  return {{"verdict", outcome.same ? "same" : "different"},
+          {"window", request.window},
+          {"breakpoints", outcome.breakpoints},
+          {"sha256", hex(outcome.found)},
+          {"expected", hex(outcome.expected)}};
+}
+
+Answer reproduce_answer(const Json& json, const ReproduceRequest& request) {
+  Answer answer(json, {"window", "breakpoints"});
+  answer.text = fmt::format("{}, SHA-256 {}, is in {}.\n",
+                            json["verdict"] == "same" ? "The window of the run" : "A different window from the run's",
+                            json["sha256"].get_ref<const std::string&>(), on_one_line(request.output->string()));
   return answer;
 }
 

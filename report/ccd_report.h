@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of `noli ccd`: its JSON, and its answer for people and machines.
+#pragma once
+
+#include "certify/json.h"
+#include "certify/queries/ccd_run.h"
+#include "report/answer.h"
+
+namespace noli::report {
+
+/// Schema ccd.
+Json ccd_json(const CcdRequest& request, const CcdOutcome& outcome);
+
+/// `json`: that of ccd_json().
+Answer ccd_answer(const Json& json, const CcdOutcome& outcome);
+
+}  // namespace noli::report
