@@ -106,7 +106,8 @@ std::optional<CheckerVerdict> in_a_file(CheckRequest request, FrameSource& frame
 
 }  // namespace
 
-bool checkers_read(const std::vector<std::filesystem::path>& frames) {
+bool checkers_read(const std::vector<std::filesystem::path>& frames, const FrameReading& reading) {
+  if (reading.given || !reading.bodies.empty()) return false;
   if (frames.size() == 1 && begins_as_blocks(frames[0])) return true;
   return std::ranges::all_of(frames, [](const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
@@ -120,15 +121,14 @@ std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& fr
 }
 
 bool left_to_checkers(const std::vector<std::filesystem::path>& files, const FrameReading& reading) {
-  const bool unknown = files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
-  return reading.bodies.empty() && (unknown || checkers_read(files));
+  if (checkers_read(files, reading)) return true;
+  const bool in_files = !reading.given && reading.bodies.empty();
+  return in_files && files.size() == 1 && files[0] != "-" && !holds_frames(files[0]);
 }
 
 CheckerVerdict check_motion(const CheckRequest& request, const FrameReading& reading) {
   if (left_to_checkers(request.trajectory, reading)) return check_proof(request);
-  auto verdict = check_frames(request, *open_all_frames(request.trajectory, reading));
-  if (!verdict) throw Stopped(stop_asked().value_or(StopReason::interrupted), request.proof->string());
-  return *std::move(verdict);
+  return verdict_or_stopped(check_frames(request, *open_all_frames(request.trajectory, reading)), request);
 }
 
 }  // namespace noli

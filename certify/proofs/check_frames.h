@@ -8,25 +8,26 @@
 #include <optional>
 #include <vector>
 
+#include <noli/frames.h>
 #include "certify/proofs/checker.h"
 #include "trajectory/formats/frame_source.h"
 
 namespace noli {
 
-/// Whether checkers read this motion as it is: PLY and OBJ files, or one block file.
-bool checkers_read(const std::vector<std::filesystem::path>& frames);
+/// Whether checkers read this motion themselves: PLY and OBJ files, or one block file; of one mesh, and not in memory.
+bool checkers_read(const std::vector<std::filesystem::path>& frames, const FrameReading& reading);
 
 /// Has a checker look at a proof in a file, and gives it the frames; those of `request.trajectory` are not used. One
 /// frame is in memory at a time; for the verified checker, which measures its files, all are in a file for a while.
 /// Nothing after a stop. Precondition: request.proof. Throws what CheckerProcess and the frames throw.
 std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames);
 
-/// Whether checkers read these files themselves, read so. What holds no frames by its name or first bytes is theirs to
-/// refuse.
+/// Whether the checker reads these files itself. It also gets a file whose name and first bytes are of no known kind,
+/// and refuses it.
 bool left_to_checkers(const std::vector<std::filesystem::path>& files, const FrameReading& reading);
 
-/// The verdict on a proof in a file, about the motion in `request.trajectory` read so, by check_proof() or
-/// check_frames(). Precondition: request.proof. Throws as those; Stopped.
+/// Checks a proof in a file about the motion in `request.trajectory`: by check_proof() if it is left_to_checkers(),
+/// otherwise by check_frames(). Precondition: request.proof. Throws as these; Stopped.
 CheckerVerdict check_motion(const CheckRequest& request, const FrameReading& reading);
 
 }  // namespace noli

@@ -7,15 +7,16 @@
 #include <optional>
 #include <string>
 
+#include <noli/frames.h>
 #include "certify/proofs/checker.h"
 #include "certify/ranks/ranks.h"
-#include "trajectory/formats/frame_source.h"
 
 namespace noli {
 
-/// check_motion() (check_frames.h) by all ranks, which call it with the same request: their joined verdict if all were
-/// asked the same and accept, otherwise that of one checker of the first rank. Nothing for the other ranks. `note`:
-/// called in the first rank with why it checks the whole proof. Throws as check_motion() and Ranks::gather().
+/// Checks one proof in all ranks; each rank must call it. Returns the joined verdict in the first rank if all were asked
+/// the same and accept; otherwise the first rank checks the whole proof. Returns nothing in other ranks. `note`: called
+/// in the first rank with the reason for that. Precondition: request.proof. Throws as check_motion() and
+/// Ranks::gather().
 std::optional<CheckerVerdict> check_in_ranks(CheckRequest request, const FrameReading& reading, Ranks& ranks,
                                              const std::function<void(const std::string&)>& note);
 

@@ -156,8 +156,9 @@ std::optional<CheckerVerdict> checked(const CheckRequest& request) {
   return CheckerProcess(request).finish();
 }
 
-CheckerVerdict check_proof(const CheckRequest& request) {
-  auto verdict = checked(request);
+CheckerVerdict check_proof(const CheckRequest& request) { return verdict_or_stopped(checked(request), request); }
+
+CheckerVerdict verdict_or_stopped(std::optional<CheckerVerdict> verdict, const CheckRequest& request) {
   if (verdict) return *std::move(verdict);
   const bool late = request.deadline && std::chrono::steady_clock::now() >= *request.deadline;
   const StopReason otherwise = late ? StopReason::out_of_time : StopReason::interrupted;

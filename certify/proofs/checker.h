@@ -65,6 +65,9 @@ class CheckerProcess {
 /// Throws as CheckerProcess.
 std::optional<CheckerVerdict> checked(const CheckRequest& request);
 
+/// The verdict. Without one, throws Stopped with the reason: a stop, or request.deadline. Precondition: request.proof.
+CheckerVerdict verdict_or_stopped(std::optional<CheckerVerdict> verdict, const CheckRequest& request);
+
 /// Writes a proof to a running checker.
 class CheckerSink : public Sink {
  public:

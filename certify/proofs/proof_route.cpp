@@ -100,7 +100,7 @@ ProofRoute::ProofRoute(VerifyWork& request) : request_(request) {
 
 bool ProofRoute::frames_are_streamed() const {
   if (request_.run) return false;
-  return request_.reading.given || !request_.reading.bodies.empty() || !checkers_read(request_.frames);
+  return !checkers_read(request_.frames, request_.reading);
 }
 
 bool ProofRoute::can_be_read_again() const {

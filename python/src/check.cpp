@@ -109,18 +109,13 @@ class Check {
                          .stop = background.stop(),
                          .checkers = checkers_};
     if (progress) request.progress = [&progress](double share) { progress("check", share); };
-    if (!given_ && bodies_.empty() && checkers_read(request.trajectory)) {
-      checked_.verdict = check_proof(request);
-    } else {
-      FrameReading reading;
-      reading.bodies = bodies_;
-      std::vector<fs::path> names = request.trajectory;
-      if (given_) reading.given = given_->given();
-      if (given_) names = {"frames"};
-      auto verdict = check_frames(request, *open_all_frames(names, reading));
-      if (!verdict) throw Stopped(StopReason::interrupted, checked_.proof.string());
-      checked_.verdict = *std::move(verdict);
-    }
+    FrameReading reading;
+    reading.bodies = bodies_;
+    if (given_) reading.given = given_->given();
+    const std::vector<fs::path> names = given_ ? std::vector<fs::path>{"frames"} : request.trajectory;
+    checked_.verdict = checkers_read(names, reading)
+                           ? check_proof(request)
+                           : verdict_or_stopped(check_frames(request, *open_all_frames(names, reading)), request);
     checked_.checker = version_of(which_);
   }
 
