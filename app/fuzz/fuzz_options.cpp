@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/fuzz/fuzz_options.h"
 
+#include <cstdio>
 #include <limits>
 #include <system_error>
 
@@ -9,6 +10,7 @@
 #include "app/output.h"
 #include "app/process.h"
 #include "audit/fuzz/save_finding.h"
+#include "certify/proofs/checker.h"
 #include "certify/result_file.h"
 
 namespace noli::app {
@@ -80,18 +82,14 @@ void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& argu
   if (arguments.corpus) make_writable_folder(*arguments.corpus, "--corpus");
 }
 
-ExitCode tell_replay(const Output& output, const ReplayResult& judged, const char* place) {
-  const bool finding = judged.difference.has_value();
-  Json json = {{"verdict", judged.unknown ? "undecided" : finding ? "finding" : "no_finding"}};
-  json.update(judged.facts);
-  json["difference"] = finding ? Json(*judged.difference) : Json();
-  json[place] = judged.saved ? Json(judged.saved->string()) : Json();
-  report::Answer answer(json, judged.pairs);
-  answer.text = judged.text;
-  if (finding) answer.text += on_one_line(*judged.difference) + '\n';
-  if (judged.saved) answer.text += "saved as " + on_one_line(judged.saved->string()) + judged.about_saved + '\n';
-  output.write("fuzz-replay", answer, json);
-  return fuzz_exit_code(judged.unknown, finding);
+void note_missing_verified_checker() {
+  if (!has_checker(Checker::verified)) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
+}
+
+ExitCode tell_replay(const Output& output, const audit::ReplayResult& judged, const char* place) {
+  const Json json = audit::replay_json(judged, place);
+  output.write("fuzz-replay", audit::replay_answer(json, judged), json);
+  return fuzz_exit_code(judged.unknown, judged.difference.has_value());
 }
 
 }  // namespace noli::app

@@ -14,6 +14,7 @@
 #include "app/exit_code.h"
 #include "app/output.h"
 #include "app/progress.h"
+#include "audit/fuzz/finding_report.h"
 #include "audit/fuzz/fuzzing.h"
 #include "certify/json.h"
 #include "certify/stopwatch.h"
@@ -59,27 +60,20 @@ Output begin_fuzzing(FuzzArgumentsInCommon& arguments, const std::vector<std::fi
 /// Copies the limits, --out and --corpus, whose folder is made if it is not there. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
+/// Says on standard error that noli_check_verified is not there, if so.
+void note_missing_verified_checker();
+
 /// The exit code of a run, or of a saved item that was judged again.
 inline ExitCode fuzz_exit_code(bool undecided, bool finding) {
   return undecided ? ExitCode::undecided : finding ? ExitCode::refuted : ExitCode::holds;
 }
 
-/// The result of judging a saved item again.
-struct ReplayResult {
-  bool unknown = false;                        ///< interrupted, or not decided
-  std::optional<std::string> difference;       ///< what is wrong with it
-  std::optional<std::filesystem::path> saved;  ///< where the smaller one is
-  Json facts;                                  ///< an object with further members
-  std::vector<std::string> pairs;              ///< members of `facts` that the answer shows
-  std::string text = {}, about_saved = {};     ///< above the difference; behind the name of what was saved
-};
+/// Writes it as a result of the schema "fuzz-replay". `place`: as in replay_json().
+ExitCode tell_replay(const Output& output, const audit::ReplayResult& judged, const char* place = "folder");
 
-/// Writes it as a result of the schema "fuzz-replay". `place`: the JSON member with the path of what was saved.
-ExitCode tell_replay(const Output& output, const ReplayResult& judged, const char* place = "folder");
-
-/// Runs fuzz(options), shows how far it is, and writes the result as its report in audit/fuzz/ has it: fuzz_json(), to
-/// which `timing` is added, fuzz_pairs() and fuzz_text(). `work`: the label of the progress. Throws WriteError when not
-/// all that was found could be saved.
+/// Runs fuzz(options) with a progress bar called `work`, and writes the result under this schema. Argument-dependent
+/// lookup finds fuzz_json(options, report), fuzz_text(options, report) and fuzz_pairs(report), beside the fuzzer in
+/// audit/fuzz/. Adds `timing`. Throws WriteError if a finding could not be saved.
 template <class Options, class Fuzz>
 ExitCode run_fuzzer(const char* work, const char* schema, const Output& output, Options& options, const Fuzz& fuzz) {
   const Stopwatch watch;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -15,7 +14,6 @@
 #include "audit/fuzz/proofs/fuzz_proofs_report.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
 #include "audit/fuzz/proofs/proof_cases.h"
-#include "certify/proofs/checker.h"
 #include "certify/result_file.h"
 
 namespace noli::app {
@@ -37,8 +35,6 @@ constexpr const char* proofs_footer =
     "  noli fuzz proofs --replay fuzz-findings/seed1-block3-index2\n"
     "  noli fuzz proofs --minimise fuzz-findings/seed1-block3-index2 --out smaller\n";
 
-constexpr std::size_t most_candidates = 20'000;  // of --minimise
-
 struct ProofsArguments {
   FuzzArgumentsInCommon common;
   std::vector<fs::path> files;
@@ -47,7 +43,7 @@ struct ProofsArguments {
 };
 
 audit::MakeCheckers make_checkers() {
-  if (!has_checker(Checker::verified)) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
+  note_missing_verified_checker();
   return audit::checkers_beside_this_program(interrupted());
 }
 
@@ -68,15 +64,15 @@ ExitCode replay(const ProofsArguments& arguments) {
   if (!arguments.files.empty()) {
     throw UsageError("--replay and --minimise take a folder that was saved; expected no other files");
   }
+  const bool smaller = arguments.replay.minimise.has_value();
   const Output output(arguments.common.results, saved_files(arguments.replay.saved()));
-  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
-  audit::JudgedProof proof{audit::read_proof_files(arguments.replay.saved()), {}};
+  if (smaller) require_writable_folder(arguments.common.out, "--out");
+  audit::ProofFiles files = audit::read_proof_files(arguments.replay.saved());
   const audit::Checkers checkers = make_checkers()();
-  proof.judgement = audit::judge_proof(proof.files, checkers);
+  const audit::JudgedProof proof = audit::replay_proof(std::move(files), smaller, checkers, interrupted());
   const bool finding = !proof.judgement.difference.empty();
   std::optional<fs::path> saved;
-  if (finding && arguments.replay.minimise) {
-    proof = audit::minimise_finding(std::move(proof), checkers, interrupted(), most_candidates);
+  if (finding && smaller) {
     saved = minimised_folder(arguments.common, arguments.replay.saved());
     const std::string what = "made smaller: " + on_one_line(arguments.replay.saved());
     audit::save_finding(proof.files, what, proof.judgement.difference, *saved);

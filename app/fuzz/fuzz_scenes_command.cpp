@@ -41,7 +41,7 @@ ExitCode fuzz(ScenesArguments& arguments) {
   const Output output = begin_fuzzing(arguments.common, {});
   audit::SceneFuzzOptions options;
   set_common(options, arguments.common);
-  options.noli = audit::run_this_program(interrupted());
+  options.noli = audit::noli_as_subject(interrupted());
   return run_fuzzer("fuzz scenes", "fuzz-scenes", output, options, audit::fuzz_scenes);
 }
 
@@ -54,7 +54,7 @@ ExitCode replay(const ScenesArguments& arguments) {
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   const audit::GeneratedScene given{audit::read_saved_scene(file), arguments.wrong_place};
   const auto [scene, judgement] =
-      audit::replay_scene(given, arguments.replay.minimise.has_value(), audit::run_this_program(interrupted()));
+      audit::replay_scene(given, arguments.replay.minimise.has_value(), audit::noli_as_subject(interrupted()));
   std::optional<fs::path> saved;
   if (judgement.difference && arguments.replay.minimise) {
     saved = fs::path(arguments.common.out) / (file.stem().string() + "-minimised.json");

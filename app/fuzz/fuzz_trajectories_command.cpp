@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,7 +75,7 @@ ExitCode fuzz(const TrajectoriesArguments& arguments, Options& options, const Ou
 ExitCode fuzz_noli(TrajectoriesArguments& arguments) {
   const Output output = begin_fuzzing(arguments.common, {});
   audit::VerifyProgram subject(arguments.verified_every, interrupted());
-  if (!subject.has_verified_checker()) std::fputs("noli: noli_check_verified was not found and is skipped\n", stderr);
+  note_missing_verified_checker();
   audit::TrajectoryOptions options;
   options.decide = [&](const audit::FrameMotion& motion) { return subject(motion); };
   return fuzz(arguments, options, output, "fuzz-trajectories", audit::fuzz_trajectories);

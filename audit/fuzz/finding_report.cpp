@@ -21,4 +21,21 @@ Json finding_json(const FuzzFinding& finding, const char* place) {
           {place, finding.place.string()}};
 }
 
+Json replay_json(const ReplayResult& judged, const char* place) {
+  const bool finding = judged.difference.has_value();
+  Json json = {{"verdict", judged.unknown ? "undecided" : finding ? "finding" : "no_finding"}};
+  json.update(judged.facts);
+  json["difference"] = finding ? Json(*judged.difference) : Json();
+  json[place] = judged.saved ? Json(judged.saved->string()) : Json();
+  return json;
+}
+
+report::Answer replay_answer(const Json& json, const ReplayResult& judged) {
+  report::Answer answer(json, judged.pairs);
+  answer.text = judged.text;
+  if (judged.difference) answer.text += on_one_line(*judged.difference) + '\n';
+  if (judged.saved) answer.text += "saved as " + on_one_line(judged.saved->string()) + judged.about_saved + '\n';
+  return answer;
+}
+
 }  // namespace noli::audit

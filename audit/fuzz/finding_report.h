@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes a finding of a fuzzer as a line of text and as JSON.
+// Describes, as text and as JSON, a finding of a fuzzer, and a saved item that was judged again.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "audit/fuzz/fuzzing.h"
 #include "certify/json.h"
+#include "report/answer.h"
 
 namespace noli::audit {
 
@@ -16,5 +20,21 @@ std::string finding_line(const FuzzFinding& finding, const char* item, const std
 
 /// {"generator": "", "block": 3, ...}. `place`: the JSON member with the path of the finding.
 Json finding_json(const FuzzFinding& finding, const char* place);
+
+/// The result of judging a saved item again.
+struct ReplayResult {
+  bool unknown = false;                        ///< interrupted, or not decided
+  std::optional<std::string> difference;       ///< what is wrong with it
+  std::optional<std::filesystem::path> saved;  ///< where the smaller one is
+  Json facts;                                  ///< an object with further members
+  std::vector<std::string> pairs;              ///< members of `facts` that the answer shows
+  std::string text = {}, about_saved = {};     ///< above the difference; behind the name of what was saved
+};
+
+/// Schema "fuzz-replay". `place`: the JSON member with the path of what was saved.
+Json replay_json(const ReplayResult& judged, const char* place);
+
+/// `json`: what replay_json() returned for this result.
+report::Answer replay_answer(const Json& json, const ReplayResult& judged);
 
 }  // namespace noli::audit

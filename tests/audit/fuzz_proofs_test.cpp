@@ -14,6 +14,7 @@
 #include <noli/errors.h>
 #include "audit/fuzz/proofs/claim_oracle.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
+#include "audit/fuzz/proofs/proof_cases.h"
 #include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "tests/support/temporary_folder.h"
@@ -338,6 +339,22 @@ TEST(MinimiseFinding, EndsWithAProofThatCanBeReadAgain) {
   const test::TemporaryFolder folder;
   write_proof_files(smallest, folder / "");
   EXPECT_EQ(read_proof_files(folder / "").proof, smallest.proof);
+}
+
+TEST(ReplayProof, MakesItSmallerIfThatIsAskedForAndSomethingIsWrong) {
+  const Checkers differ = checkers_that_differ();
+  const std::atomic<bool> stop = false;
+  const JudgedProof as_it_is = replay_proof(example_files(), false, differ, stop);
+  EXPECT_EQ(as_it_is.files.proof, example_files().proof);
+  EXPECT_NE(as_it_is.judgement.difference, "");
+  const JudgedProof smaller = replay_proof(example_files(), true, differ, stop);
+  EXPECT_LT(smaller.files.proof.size(), as_it_is.files.proof.size());
+  EXPECT_EQ(kind_of(smaller.judgement), kind_of(as_it_is.judgement));
+}
+
+TEST(ProofCases, AreNoneForAUserWhoWouldNotWait) {
+  const std::atomic<bool> stop = true;
+  EXPECT_TRUE(proof_cases({}, stop).empty());
 }
 
 /// Requests a stop after this many answers, like a user who interrupts.

@@ -139,6 +139,23 @@ TEST_F(FuzzScenes, MakesAFailingSceneSmall) {
   EXPECT_EQ(SceneJson::parse(saved), finding->shrunk);
 }
 
+TEST_F(FuzzScenes, ASavedSceneIsMadeSmallerIfSomethingIsWrong) {
+  const SceneJson scene = {{"noli_scene", 1}, {"gravity", {0, 0, -1}}, {"window", 0.5}};
+  const RunNoli fails = [](const std::vector<std::string>& arguments) {
+    return arguments[0] == "simulate" && scene_of(arguments).contains("gravity") ? ended(4, "", "internal error")
+                                                                                 : does_well(arguments);
+  };
+  const ReplayedScene as_it_is = replay_scene({scene, std::nullopt}, false, fails);
+  EXPECT_EQ(as_it_is.scene, scene);
+  EXPECT_EQ(as_it_is.judgement.difference, "failure: noli simulate: exit code 4: internal error");
+  const ReplayedScene smaller = replay_scene({scene, std::nullopt}, true, fails);
+  EXPECT_EQ(smaller.scene.size(), 1U) << smaller.scene.dump();
+  EXPECT_EQ(smaller.judgement.difference, as_it_is.judgement.difference);
+  const ReplayedScene good = replay_scene({scene, std::nullopt}, true, does_well);
+  EXPECT_EQ(good.scene, scene);
+  EXPECT_EQ(good.judgement.difference, std::nullopt);
+}
+
 TEST_F(FuzzScenes, FindsEveryKindOfWrongEnd) {
   struct Fault {
     const char* kind;

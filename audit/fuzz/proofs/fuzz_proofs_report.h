@@ -14,7 +14,7 @@ namespace noli::audit {
 /// Without `timing`.
 Json fuzz_json(const ProofFuzzOptions& options, const ProofFuzzReport& report);
 std::string fuzz_text(const ProofFuzzOptions& options, const ProofFuzzReport& report);
-/// Members of that JSON for the line of --porcelain.
+/// Members of that JSON for the line of --porcelain; the report only selects the overload.
 std::vector<std::string> fuzz_pairs(const ProofFuzzReport& report);
 
 /// The answers of both checkers, and whether the claim is true.

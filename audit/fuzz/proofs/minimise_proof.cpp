@@ -150,4 +150,12 @@ JudgedProof minimise_finding(JudgedProof finding, const Checkers& checkers, cons
   return finding;
 }
 
+JudgedProof replay_proof(ProofFiles files, bool smaller, const Checkers& checkers, const std::atomic<bool>& stop) {
+  constexpr std::size_t most_candidates = 20'000;
+  JudgedProof proof{std::move(files), {}};
+  proof.judgement = judge_proof(proof.files, checkers);
+  if (!smaller || proof.judgement.difference.empty()) return proof;
+  return minimise_finding(std::move(proof), checkers, stop, most_candidates);
+}
+
 }  // namespace noli::audit

@@ -30,4 +30,7 @@ struct JudgedProof {
 JudgedProof minimise_finding(JudgedProof finding, const Checkers& checkers, const std::atomic<bool>& stop,
                              std::size_t budget);
 
+/// Judges a saved proof again. `smaller`: it is made smaller if something is wrong with it.
+JudgedProof replay_proof(ProofFiles files, bool smaller, const Checkers& checkers, const std::atomic<bool>& stop);
+
 }  // namespace noli::audit

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a proof and its trajectory, which the checker has to take.
+/// Throws InputError unless the checker accepts the proof, or the witness in it.
 ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajectory, const std::atomic<bool>& stop) {
   const std::string bytes = read_whole_file(proof);
   const CheckerVerdict said =

@@ -12,9 +12,9 @@
 
 namespace noli::audit {
 
-/// The proof in files[0], which the checker has to take, about the frames or the run behind it; without files, proofs
-/// and witnesses of small motions, with all sorts of claims. Fewer, or none, when `stop` is set. Throws InputError, and
-/// what the checker's process throws.
+/// files[0] is a proof or witness that the checker accepts; the rest are its frames, or its run. Without files: proofs
+/// and witnesses of small motions, with various claims. Fewer, or none, once `stop` is set. Precondition: not exactly
+/// one file. Throws InputError, and what check_proof() throws.
 std::vector<ProofCase> proof_cases(const std::vector<std::filesystem::path>& files, const std::atomic<bool>& stop);
 
 }  // namespace noli::audit

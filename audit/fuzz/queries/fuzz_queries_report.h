@@ -15,7 +15,7 @@ namespace noli::audit {
 /// Without `timing`. Precondition here and below: the options have the command that asks a finding again.
 Json fuzz_json(const QueryFuzzOptions& options, const QueryFuzzReport& report);
 std::string fuzz_text(const QueryFuzzOptions& options, const QueryFuzzReport& report);
-/// Members of that JSON for the line of --porcelain.
+/// Members of that JSON for the line of --porcelain; the report only selects the overload.
 std::vector<std::string> fuzz_pairs(const QueryFuzzReport& report);
 
 Json fuzz_json(const LibraryFuzzOptions& options, const LibraryFuzzReport& report);

@@ -28,13 +28,13 @@ class SavedQueryFile {
   const std::filesystem::path& path() const { return path_; }
   const std::vector<SavedQuery>& queries() const { return saved_; }
 
-  /// Of how many queries there is an answer.
+  /// How many queries have an answer.
   std::size_t asked() const { return library_ ? found_.asked : saved_.size(); }
 
-  /// In words, one line each; nothing for what is right.
+  /// A line for each fault; empty if there is none.
   std::vector<std::string> differences() const;
 
-  /// What fails, made simpler; equal ones once. Fewer when `stop` is set.
+  /// Shrinks each query that fails; equal results are listed once. Fewer when `stop` is set.
   std::vector<Finding> minimised(const std::atomic<bool>& stop) const;
 
  private:

@@ -241,7 +241,7 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
 
 }  // namespace
 
-RunNoli run_this_program(const std::atomic<bool>& stop) {
+RunNoli noli_as_subject(const std::atomic<bool>& stop) {
   require_startable(beside_this_program("noli_check").string());
   return [noli = this_program_file().string(), &stop](const std::vector<std::string>& arguments) {
     std::vector<std::string> words = {noli};

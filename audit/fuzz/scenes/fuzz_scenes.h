@@ -33,9 +33,9 @@ namespace noli::audit {
 /// Runs `noli` with these arguments. Called from several threads at once.
 using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 
-/// Runs this program for at most 120 seconds, until `stop` is set. Throws std::system_error when the checker that it
-/// starts is not there: each scene would be a finding.
-RunNoli run_this_program(const std::atomic<bool>& stop);
+/// This program as the subject. Each run ends after 120 seconds, or when `stop` is set, which must outlive the result.
+/// Throws std::system_error if noli_check is missing: each scene would be a finding.
+RunNoli noli_as_subject(const std::atomic<bool>& stop);
 
 struct SceneFuzzOptions : FuzzSettings {
   RunNoli noli;

@@ -14,7 +14,7 @@ namespace noli::audit {
 /// Without `timing`.
 Json fuzz_json(const SceneFuzzOptions& options, const SceneFuzzReport& report);
 std::string fuzz_text(const SceneFuzzOptions& options, const SceneFuzzReport& report);
-/// Members of that JSON for the line of --porcelain.
+/// Members of that JSON for the line of --porcelain; the report only selects the overload.
 std::vector<std::string> fuzz_pairs(const SceneFuzzReport& report);
 
 /// How its simulation ended, and what was done after it.

@@ -17,10 +17,10 @@ namespace noli::audit {
 /// Without `timing`.
 Json fuzz_json(const TrajectoryOptions& options, const TrajectoryReport& report);
 std::string fuzz_text(const TrajectoryOptions& options, const TrajectoryReport& report);
-/// Members of that JSON for the line of --porcelain.
+/// Members of that JSON for the line of --porcelain; the report only selects the overload.
 std::vector<std::string> fuzz_pairs(const TrajectoryReport& report);
 
-/// The same of a library.
+/// The same of a library. Precondition: the options have `replay_command`.
 Json fuzz_json(const LibraryMotionOptions& options, const LibraryMotionReport& report);
 std::string fuzz_text(const LibraryMotionOptions& options, const LibraryMotionReport& report);
 std::vector<std::string> fuzz_pairs(const LibraryMotionReport& report);

@@ -10,6 +10,7 @@
 #include "certify/process/run_program.h"
 #include "certify/process/scratch_folder.h"
 #include "certify/process/this_program.h"
+#include "certify/proofs/checker.h"
 #include "trajectory/text.h"
 
 namespace noli::audit {
@@ -73,7 +74,7 @@ VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<boo
       noli_(this_program_file()),
       plain_(beside_this_program("noli_check")),
       verified_(beside_this_program("noli_check_verified")),
-      has_verified_(fs::exists(verified_)),
+      has_verified_(has_checker(Checker::verified)),
       verified_every_(verified_every) {}
 
 MotionAnswer VerifyProgram::operator()(const FrameMotion& motion) {

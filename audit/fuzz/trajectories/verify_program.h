@@ -19,7 +19,6 @@ class VerifyProgram {
   /// the programs are ended. Throws std::runtime_error when noli or noli_check are not there.
   VerifyProgram(std::uint64_t verified_every, const std::atomic<bool>& stop);
 
-  bool has_verified_checker() const { return has_verified_; }
   MotionAnswer operator()(const FrameMotion& motion);
 
  private:
