@@ -37,11 +37,6 @@ struct CcdArguments {
   OutputOptions results;
 };
 
-ExitCode exit_code(const CcdOutcome& outcome) {
-  if (outcome.total.disagreements > 0) return ExitCode::refuted;
-  return outcome.complete ? ExitCode::holds : ExitCode::undecided;
-}
-
 ExitCode run(CcdArguments& arguments) {
   begin_work(arguments.time_limit);
   CcdRequest& request = arguments.request;
@@ -54,7 +49,7 @@ ExitCode run(CcdArguments& arguments) {
   });
   const Json json = report::ccd_json(request, outcome);
   output.write("ccd", report::ccd_answer(json, outcome), json);
-  return exit_code(outcome);
+  return exit_code_of(outcome.refuted(), outcome.holds());
 }
 
 }  // namespace

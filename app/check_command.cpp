@@ -202,12 +202,13 @@ ExitCode run(CheckArguments& arguments) {
   const auto verdict = ranks ? check_in_ranks(request, arguments.reading, *ranks, tell_note)
                              : std::optional(check_motion(request, arguments.reading));
   bars.reset();
-  if (!verdict || !output) return static_cast<ExitCode>(ranks->end(0));  // the first rank's becomes that of all
+  if (!verdict || !output) return end_of(*ranks, ExitCode::holds);  // the first rank's becomes that of all
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict->words.starts_with(at_fault)) throw UsageError(first_line(verdict->words).substr(at_fault.size()));
   const report::Checked checked{version_of(which), proof, asked, *verdict, notes, least_steps};
   output->write("check", report::check_answer(checked), report::check_json(checked));
-  return static_cast<ExitCode>(ranks ? ranks->end(verdict->code) : verdict->code);
+  const auto code = static_cast<ExitCode>(verdict->code);
+  return ranks ? end_of(*ranks, code) : code;
 }
 
 }  // namespace

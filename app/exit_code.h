@@ -21,4 +21,10 @@ inline ExitCode exit_code_of(bool refuted, bool holds) {
   return holds ? ExitCode::holds : ExitCode::undecided;
 }
 
+/// Ends the ranks of a job, each with its own exit code; returns that of the first rank.
+template <class Ranks>
+ExitCode end_of(Ranks& ranks, ExitCode own) {
+  return static_cast<ExitCode>(ranks.end(static_cast<int>(own)));
+}
+
 }  // namespace noli::app

@@ -110,7 +110,7 @@ ExitCode show_contact(const ExportArguments& arguments) {
   require_output_files({{"-o", request.pattern, true}}, {request.run}, request.force);
   const report::ContactExportRequest contact{
       request.run, arguments.contact.value_or(0), {arguments.from, size_of(arguments.size), ""}, request.pattern};
-  write_words(report::contact_answer(contact, report::export_contact(contact)));
+  write_words(report::contact_export_answer(contact, report::export_contact(contact)));
   return ExitCode::holds;
 }
 

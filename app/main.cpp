@@ -69,7 +69,7 @@ std::string parts_text() {
   if (!report::has_report_page()) without.push_back("reports");
   if (!report::can_write_png()) without.push_back("pictures");
   if (!is_beside_this("noli_series")) without.push_back("series.h5");
-  if (!Ranks::are_installed()) without.push_back("MPI");
+  if (!Ranks::has_library()) without.push_back("MPI");
   if (!has_audits()) without.push_back("fuzz and audit");
   return without.empty() ? "with all parts\n" : fmt::format("without {}\n", fmt::join(without, ", "));
 }

@@ -19,7 +19,6 @@
 #include "certify/json.h"
 #include "report/page/assemble_page.h"
 #include "report/page/report_page.h"
-#include "trajectory/text.h"
 #include "trajectory/write_file.h"
 
 namespace noli::app {
@@ -71,13 +70,10 @@ void open_in_browser(const fs::path& page) {
   }
 }
 
-report::AssembledPage assemble(const report::PageRequest& request) {
-  report::PageAssembly assembly(request);
-  if (assembly.run()) note_if_being_written(*assembly.run());
+report::AssembledPage assemble(report::PageRequest request) {
   std::optional<ProgressBars> bars(std::in_place);
-  assembly.show_motion([&](double share) { bars->show("report", share); });
-  bars.reset();
-  return assembly.finish();
+  request.limits.progress = [&](double share) { bars->show("report", share); };
+  return report::assemble_page(request, note_if_being_written, [&] { bars.reset(); });
 }
 
 ExitCode run(const ReportArguments& arguments) {

@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 
-#include <noli/errors.h>
 #include <noli/simulate.h>
 #include "app/commands.h"
 #include "app/notes.h"
@@ -57,7 +56,7 @@ struct SimulateArguments {
   OutputOptions results;
 };
 
-/// The words of --reproduce.
+/// Makes one window of a run again.
 ExitCode reproduce(const SimulateArguments& arguments) {
   const SimulateRequest& request = arguments.request;
   const Output output(arguments.results, {request.scene, *arguments.reproduce}, {{"-o", request.run}});

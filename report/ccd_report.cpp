@@ -12,8 +12,8 @@ namespace noli::report {
 namespace {
 
 const char* ccd_verdict(const CcdOutcome& outcome) {
-  if (outcome.total.disagreements > 0) return "disagreement";
-  if (!outcome.complete) return "undecided";
+  if (outcome.refuted()) return "disagreement";
+  if (!outcome.holds()) return "undecided";
   return outcome.total.labelled > 0 ? "agreement" : "decided";
 }
 

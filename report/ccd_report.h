@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of `noli ccd`: its JSON, and its answer for people and machines.
+// Describes results of `noli ccd` as JSON and as text.
 #pragma once
 
 #include "certify/json.h"

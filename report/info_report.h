@@ -11,7 +11,7 @@
 namespace noli::report {
 
 /// One of the "files" of schema info: frames, queries (CSV), a proof, or the folder of a run. Reads all of it; of a
-/// file with many frames, the first frame. Throws InputError.
+/// file with many frames, the first frame. Throws InputError, HelperError, Stopped, std::system_error.
 Json file_info_json(const std::filesystem::path& path);
 
 /// `json`: schema info.

@@ -12,10 +12,8 @@ namespace noli::report {
 namespace {
 
 std::string_view verdict_of_shard(const ShardOutcome& outcome) {
-  if (!outcome.complete()) return name(Verdict::undecided);  // whatever was found: tasks are missing
-  if (outcome.first_touch) return name(Verdict::contact);
-  if (outcome.first_near) return name(Verdict::too_near);
-  return outcome.unproved ? name(Verdict::undecided) : "done";
+  if (outcome.refuted()) return name(outcome.first_touch ? Verdict::contact : Verdict::too_near);
+  return outcome.holds() ? "done" : name(Verdict::undecided);
 }
 
 /// "shard 3 of 64: 2 of 256 tasks done now, 1 before, ..."

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of `noli verify --shard`, which gives no verdict on all steps: how far one part of them got.
+// Describes what `noli verify --shard` did: how far one part of the steps got. It gives no verdict on all steps.
 #pragma once
 
 #include "certify/shards/shards.h"

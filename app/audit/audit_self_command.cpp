@@ -8,10 +8,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <noli/errors.h>
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -41,7 +39,6 @@ struct SelfArguments {
   std::string fuzz_time = "60s", scene_time = "5s", scenes = "scenes", out = "self-findings";
   std::optional<std::string> program, data;
   OutputOptions results;
-  bool require_all = false;
 };
 
 /// What NOLI_DATA names, unless the command line does.
@@ -68,10 +65,9 @@ ExitCode run(SelfArguments& arguments) {
   const Stopwatch watch;
   const audit::SelfReport report = audit::audit_self(options);
   const double seconds = watch.seconds();
-  const std::string_view verdict = audit::self_verdict(report, arguments.require_all);
-  const Json json = audit::self_json(options, report, verdict, seconds);
+  const Json json = audit::self_json(options, report, seconds);
   output.write("audit-self", audit::self_answer(json, report, seconds), json);
-  return exit_code_of(verdict == "finding", verdict == "holds");
+  return exit_code_of(report.refuted(), report.holds());
 }
 
 }  // namespace
@@ -109,7 +105,7 @@ Command add_audit_self(CLI::App& audit) {
   command->add_option("--out", arguments->out, "Folder for findings, created for the first one")
       ->capture_default_str()
       ->type_name("DIR");
-  command->add_flag("--require-all", arguments->require_all, "Exit 2 when something was skipped");
+  command->add_flag("--require-all", options.require_all, "Exit 2 when something was skipped");
   add_threads_option(*command, options.threads);
   add_output_options(*command, arguments->results);
   return {command, [arguments] { return run(*arguments); }};

@@ -44,7 +44,7 @@ ExitCode answer_in_ranks(VerifyWork& request, const std::optional<std::filesyste
     code = answer(whole, outputs, *output);
     if (!shards && code != ExitCode::undecided) std::filesystem::remove_all(work.folder);
   }
-  return static_cast<ExitCode>(ranks.end(static_cast<int>(code)));
+  return end_of(ranks, code);
 }
 
 ExitCode answer_shard(VerifyWork& request, const ShardWork& work, const Output& output) {
@@ -54,8 +54,7 @@ ExitCode answer_shard(VerifyWork& request, const ShardWork& work, const Output& 
   const ShardOutcome outcome = verify_shard(request, work);
   bars.reset();
   output.write("verify", report::shard_answer(work, outcome, request.step_word()), Json::object());
-  const bool refuted = outcome.complete() && (outcome.first_touch || outcome.first_near);
-  return exit_code_of(refuted, outcome.complete() && !outcome.unproved);
+  return exit_code_of(outcome.refuted(), outcome.holds());
 }
 
 }  // namespace noli::app

@@ -87,7 +87,7 @@ class FindingsFolder {
 
 class SelfAudit {
  public:
-  explicit SelfAudit(const SelfOptions& options) : options_(options) {}
+  explicit SelfAudit(const SelfOptions& options) : options_(options) { report_.require_all = options.require_all; }
 
   SelfReport run() {
     try {
@@ -312,6 +312,11 @@ class SelfAudit {
 
 std::size_t SelfReport::count(PartState state) const {
   return static_cast<std::size_t>(std::ranges::count(parts, state, &SelfPart::state));
+}
+
+bool SelfReport::holds() const {
+  const bool all = complete && (!require_all || count(PartState::skipped) == 0);
+  return all && !refuted() && count(PartState::held) > 0;
 }
 
 SelfReport audit_self(const SelfOptions& options) { return SelfAudit(options).run(); }

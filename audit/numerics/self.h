@@ -42,6 +42,7 @@ struct SelfOptions {
   std::vector<std::string> only;                                 ///< groups; empty: all
   std::filesystem::path out;                                     ///< folder for findings of fuzzers
   const std::atomic<bool>* stop = nullptr;
+  bool require_all = false;                            ///< what is skipped counts as undecided
   std::function<void(const std::string& part)> begun;  ///< may be empty
 };
 
@@ -58,8 +59,12 @@ struct SelfPart {
 
 struct SelfReport {
   std::vector<SelfPart> parts;
-  bool complete = true;  ///< false if it was stopped
+  bool complete = true;      ///< false if it was stopped
+  bool require_all = false;  ///< as in the options
 
+  bool refuted() const { return count(PartState::failed) > 0; }
+  /// All that ran held, and something did; with `require_all`, everything ran.
+  bool holds() const;
   std::size_t count(PartState state) const;
 };
 

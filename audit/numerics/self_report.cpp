@@ -33,14 +33,10 @@ std::string figures_text(const SelfPart& part) {
 
 }  // namespace
 
-const char* self_verdict(const SelfReport& report, bool require_all) {
-  if (report.count(PartState::failed) > 0) return "finding";
-  const bool all = report.complete && (!require_all || report.count(PartState::skipped) == 0);
-  return all && report.count(PartState::held) > 0 ? "holds" : "undecided";
-}
-
-Json self_json(const SelfOptions& options, const SelfReport& report, std::string_view verdict, double seconds) {
-  Json json = {{"verdict", verdict},
+Json self_json(const SelfOptions& options, const SelfReport& report, double seconds) {
+  Json json = {{"verdict", report.refuted() ? "finding"
+                           : report.holds() ? "holds"
+                                            : "undecided"},
                {"held", report.count(PartState::held)},
                {"failed", report.count(PartState::failed)},
                {"skipped", report.count(PartState::skipped)},

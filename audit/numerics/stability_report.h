@@ -12,7 +12,7 @@ namespace noli::audit {
 /// `seconds` of the whole audit, wall clock, become part of `timing`.
 Json stability_json(const StabilityReport& report, double seconds);
 
-/// Precondition: `json` is that of the report.
+/// `json`: what stability_json() returned for this report.
 report::Answer stability_answer(const Json& json, const StabilityReport& report, double seconds);
 
 }  // namespace noli::audit

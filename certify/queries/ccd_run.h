@@ -63,6 +63,9 @@ struct CcdOutcome {
   std::vector<CcdFile> files;
   CcdCounts total;
   bool complete = true;  ///< false: interrupted
+
+  bool refuted() const { return total.disagreements > 0; }
+  bool holds() const { return complete && !refuted(); }
 };
 
 /// Reads all files, then decides them. Throws InputError, UsageError (no kind, no such kind in this dimension).

@@ -115,7 +115,7 @@ bool Ranks::started_by_mpirun() { return ranks_in_environment() > 1; }
 
 bool Ranks::is_mpi_job() { return ranks_in_environment() > 0; }
 
-bool Ranks::are_installed() {
+bool Ranks::has_library() {
   std::error_code error;
   return std::filesystem::exists(library_file(), error);
 }

@@ -6,7 +6,7 @@
 //
 // noli_mpi.so (mpi_library.h) is loaded only in such a job, so that nothing else needs MPI. A rank that ends
 // without end() ends the whole job, with its exit code: finished tasks are on disk, and the same command does the rest.
-// A process is one rank at most, and calls these functions one at a time, unless they say otherwise.
+// A process has at most one `Ranks`, and calls its functions one at a time, except where a function says otherwise.
 #pragma once
 
 #include <chrono>
@@ -28,8 +28,8 @@ class Ranks {
   static bool started_by_mpirun();
   /// The same, or as the only one.
   static bool is_mpi_job();
-  /// Whether the library is there.
-  static bool are_installed();
+  /// Whether noli_mpi.so is beside this program, or where it is installed.
+  static bool has_library();
 
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -55,7 +55,7 @@ class Ranks {
   std::vector<std::string> gather(const std::string& text);
   /// Waits until all ranks are here.
   void barrier();
-  /// The same, then ends MPI. Returns the exit code of the first rank, in all of them.
+  /// The same, then ends MPI. `code`: the exit code of this rank. Returns that of the first rank, in all of them.
   int end(int code);
 
  private:

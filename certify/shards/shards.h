@@ -56,6 +56,8 @@ struct ShardOutcome {
   bool out_of_time = false;
 
   bool complete() const { return !interrupted && !out_of_time; }
+  bool refuted() const { return complete() && (first_touch || first_near); }
+  bool holds() const { return complete() && !refuted() && !unproved; }
 };
 
 /// A folder for the shards of a request that no other request has: noli-shards-HASH in the current folder.

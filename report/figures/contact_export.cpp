@@ -302,7 +302,7 @@ ContactExport export_contact(const ContactExportRequest& request) {
   check(request.output);
   const ShownContact shown = contact_in(request.result, request.number);
   write_contact(shown, request.output, request.view);
-  return {shown.step, shown.time, shown.marks.size()};
+  return {shown.step, shown.time, shown.marks.size(), is_picture(request.output)};
 }
 
 }  // namespace noli::report

@@ -51,6 +51,7 @@ struct ContactExport {
   std::size_t step = 0;  ///< from 1
   double time = 0;
   std::size_t cells = 0;  ///< how many are marked
+  bool picture = false;   ///< else a grid (.vtu)
 };
 
 /// Throws InputError (a result without contacts or of another version, files that are gone or have changed), UsageError

@@ -48,9 +48,9 @@ Answer repair_picture_answer(const RepairPictureRequest& request, const PictureO
   return answer;
 }
 
-Answer contact_answer(const ContactExportRequest& request, const ContactExport& shown) {
+Answer contact_export_answer(const ContactExportRequest& request, const ContactExport& shown) {
   Answer answer("written");
-  answer.text = request.output.extension() == ".png"
+  answer.text = shown.picture
                     ? "Red: cells of the first feature. Yellow: cells of the second.\n"
                     : "The cell array \"contact\": 1 for cells of the first feature, 2 for cells of the second.\n";
   answer.place = fmt::format("{}  step {} at t = {}, {} cells marked", on_one_line(request.output.string()), shown.step,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of `noli export`: what it says about what it has written.
+// Describes what `noli export` has written.
 #pragma once
 
 #include <noli/export.h>
@@ -23,6 +23,6 @@ Answer picture_answer(const PictureRequest& request, const PictureOutcome& outco
 /// Of a motion of a repair at one time.
 Answer repair_picture_answer(const RepairPictureRequest& request, const PictureOutcome& outcome);
 
-Answer contact_answer(const ContactExportRequest& request, const ContactExport& shown);
+Answer contact_export_answer(const ContactExportRequest& request, const ContactExport& shown);
 
 }  // namespace noli::report

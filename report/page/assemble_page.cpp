@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <noli/errors.h>
+#include "certify/json.h"
 #include "certify/process/hdf5_frames.h"
 #include "report/page/report_inputs.h"
 #include "report/page/report_repair.h"
@@ -27,9 +28,49 @@ std::string_view tone_of_result(const Json& result) {
   return name(tone_of(word.is_string() ? word.get_ref<const std::string&>() : ""));
 }
 
-}  // namespace
+/// A page that is being made, step by step.
+class PageAssembly {
+ public:
+  /// Sorts the inputs by kind, reads the results and orders the frames.
+  explicit PageAssembly(const PageRequest& request);
 
-PageAssembly::PageAssembly(PageRequest request) : request_(std::move(request)) {
+  /// The run among the inputs.
+  const std::optional<std::filesystem::path>& run() const { return run_; }
+
+  /// Reads the motion of the run, of the repair or of the frames.
+  void show_motion();
+
+  /// Adds the verdicts, the pictures and where all comes from.
+  AssembledPage finish();
+
+ private:
+  /// A result about the motion that is shown.
+  struct ResultFile {
+    std::filesystem::path path;
+    Json json;
+  };
+
+  void sort_inputs();
+  void read_result_file(const std::filesystem::path& path);
+  void put_frames_in_order();
+  void put_repair();
+  void put_frames();
+  FrameReading reading() const;
+  void put_verdict_of_verify();
+  void put_pictures();
+  void put_other_words();
+  void put_sources();
+  bool has_title() const;
+  void put_title();
+
+  const PageRequest& request_;
+  std::optional<std::filesystem::path> run_;
+  std::vector<std::filesystem::path> frames_, results_, pictures_;
+  std::optional<ResultFile> verified_, repaired_;
+  ReportPage report_;
+};
+
+PageAssembly::PageAssembly(const PageRequest& request) : request_(request) {
   sort_inputs();
   report_.page = empty_page();
   for (const std::filesystem::path& path : results_) read_result_file(path);
@@ -83,8 +124,7 @@ void PageAssembly::put_frames_in_order() {
   frames_ = order_frames(std::move(frames_), order).frames;
 }
 
-void PageAssembly::show_motion(std::function<void(double share)> progress) {
-  request_.limits.progress = std::move(progress);
+void PageAssembly::show_motion() {
   if (repaired_) put_repair();
   if (run_) report_run(*run_, request_.limits, report_);
   if (!frames_.empty()) put_frames();
@@ -194,6 +234,18 @@ bool PageAssembly::has_title() const { return !report_.page.at("title").get_ref<
 void PageAssembly::put_title() {
   if (request_.title) report_.page["title"] = *request_.title;
   if (!has_title()) report_.page["title"] = request_.inputs.front().stem().string();
+}
+
+}  // namespace
+
+AssembledPage assemble_page(const PageRequest& request,
+                            const std::function<void(const std::filesystem::path& run)>& begins,
+                            const std::function<void()>& after_motion) {
+  PageAssembly assembly(request);
+  if (assembly.run()) begins(*assembly.run());
+  assembly.show_motion();
+  after_motion();
+  return assembly.finish();
 }
 
 }  // namespace noli::report

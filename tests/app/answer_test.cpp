@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests how an answer takes its key-value pairs from the members of a result.
+// Tests how an answer takes its key-value pairs from the members of a result, and answers that no test of a command sees.
 #include <gtest/gtest.h>
 
 #include "report/answer.h"
+#include "report/figures/export_report.h"
+#include "report/simulate_report.h"
 
 namespace noli::app_tests {
 namespace {
@@ -47,6 +49,46 @@ TEST(Answer, NeedsItsMembers) {
 TEST(Answer, EndsWithTheVerdictInCapitalsAndItsPairs) {
   const Answer answer(Json{{"verdict", "no_finding"}, {"items", 2}, {"seed", 7}}, {"items", "seed"});
   EXPECT_EQ(answer.last_line(), "NO FINDING  items 2, seed 7");
+}
+
+TEST(ReproduceAnswer, SaysWhetherTheWindowIsThatOfTheRun) {
+  const ReproduceRequest request{.scene = "scene.json", .run = "run", .window = 3, .output = "three.block"};
+  ReproduceOutcome outcome{.same = true, .breakpoints = 12};
+  const auto answered = [&] {
+    const Json json = report::reproduce_json(request, outcome);
+    const Answer answer = report::reproduce_answer(json, request);
+    return answer.text + answer.porcelain();
+  };
+  const std::string hash = ", SHA-256 " + std::string(64, '0') + ", is in three.block.\n";
+  EXPECT_EQ(answered(), "The window of the run" + hash + "verdict=same window=3 breakpoints=12\n");
+  outcome.same = false;
+  EXPECT_EQ(answered(), "A different window from the run's" + hash + "verdict=different window=3 breakpoints=12\n");
+}
+
+TEST(ExportAnswer, SaysWhatIsSpecialAboutTheRun) {
+  const ExportRequest request{.run = "run", .pattern = "frames/%d.vtu"};
+  ExportOutcome outcome{.frames = 4, .windows = 2, .end = 0.5, .pvd = "frames/frames.pvd"};
+  const std::string lines =
+      "Straight lines between these frames are not the certified motion; the world lines of the run are.\n";
+  Answer answer = report::export_answer(request, outcome);
+  EXPECT_EQ(answer.text, "ParaView opens the series: frames/frames.pvd\n" + lines);
+  EXPECT_EQ(answer.place, "frames/%d.vtu  4 frames of 2 windows, up to 0.5 s");
+  EXPECT_EQ(answer.verdict(), "written");
+  outcome = {.frames = 4,
+             .windows = 2,
+             .end = 0.5,
+             .pvd = "",
+             .removed = 3,
+             .open_window = true,
+             .interrupted = true,
+             .recorded = true};
+  answer = report::export_answer(request, outcome);
+  EXPECT_EQ(answer.text,
+            "Removed: 3 files of an earlier export.\n"
+            "The run recorded frames: these were written, at the scene's frame_rate, not at --fps.\n"
+            "The run ends in a window that was never committed; it is left out.\n" +
+                lines);
+  EXPECT_EQ(answer.verdict(), "interrupted");
 }
 
 }  // namespace

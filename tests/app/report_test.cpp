@@ -486,6 +486,14 @@ TEST_F(Report, RefusesWhatDoesNotFit) {
   write({folder.write("none.json", "{")}, 3, "is not JSON");
   write({folder.write("list.json", "[]")}, 3, "expected an object");
   write({folder.write("no.txt", "x")}, 3, "expected the folder of a run");
+  const std::string run = folder.path("one"), another = folder.path("two");
+  for (const std::string& path : {run, another}) fs::create_directory(path);
+  write({run, another}, 3, "expected one run at most");
+  write({run, frames[0]}, 3, "expected a run or frames, and not both");
+  write({result, folder.write("again.json", bytes_of(result))}, 3, "expected at most one result of noli verify");
+  const std::string repair = folder.write("repair.json", R"({"schema": "noli-repair"})");
+  write({repair, folder.write("another.json", bytes_of(repair))}, 3, "expected at most one result of noli repair");
+  write({repair, result}, 3, "a page about a repair shows the frames that it names");
   Json other = Json::parse(bytes_of(result));
   other["reports"]["contacts"][0]["features"][0][0] = 4;
   write({folder.write("other.json", other.dump()), frames[0], frames[1]}, 3, "names vertex 4, but the mesh");
