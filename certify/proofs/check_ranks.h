@@ -13,9 +13,9 @@
 
 namespace noli {
 
-/// Checks one proof in all ranks; each rank must call it. Returns the joined verdict in the first rank if all were asked
-/// the same and accept; otherwise the first rank checks the whole proof. Returns nothing in other ranks. `note`: called
-/// in the first rank with the reason for that. Precondition: request.proof. Throws as check_motion() and
+/// Checks one proof in all ranks; each rank must call it. Returns the joined verdict in the first rank if all were
+/// asked the same and accept; otherwise the first rank checks the whole proof. Returns nothing in other ranks. `note`:
+/// called in the first rank with the reason for that. Precondition: request.proof. Throws as check_motion() and
 /// Ranks::gather().
 std::optional<CheckerVerdict> check_in_ranks(CheckRequest request, const FrameReading& reading, Ranks& ranks,
                                              const std::function<void(const std::string&)>& note);
