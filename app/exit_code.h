@@ -21,7 +21,7 @@ inline ExitCode exit_code_of(bool refuted, bool holds) {
   return holds ? ExitCode::holds : ExitCode::undecided;
 }
 
-/// Ends the ranks of a job, each with its own exit code; returns that of the first rank.
+/// Waits for the other ranks and ends MPI. `own`: the exit code of this rank. Returns that of the first rank.
 template <class Ranks>
 ExitCode end_of(Ranks& ranks, ExitCode own) {
   return static_cast<ExitCode>(ranks.end(static_cast<int>(own)));

@@ -5,7 +5,6 @@
 #include <limits>
 #include <system_error>
 
-#include <noli/errors.h>
 #include "app/options.h"
 #include "app/output.h"
 #include "app/process.h"

@@ -60,7 +60,7 @@ Output begin_fuzzing(FuzzArgumentsInCommon& arguments, const std::vector<std::fi
 /// Copies the limits, --out and --corpus, whose folder is made if it is not there. Throws UsageError.
 void set_common(audit::FuzzSettings& settings, const FuzzArgumentsInCommon& arguments);
 
-/// Says on standard error that noli_check_verified is not there, if so.
+/// Reports on standard error when noli_check_verified is missing.
 void note_missing_verified_checker();
 
 /// The exit code of a run, or of a saved item that was judged again.

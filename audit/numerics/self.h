@@ -42,7 +42,7 @@ struct SelfOptions {
   std::vector<std::string> only;                                 ///< groups; empty: all
   std::filesystem::path out;                                     ///< folder for findings of fuzzers
   const std::atomic<bool>* stop = nullptr;
-  bool require_all = false;                            ///< what is skipped counts as undecided
+  bool require_all = false;                            ///< a skipped part makes the audit undecided
   std::function<void(const std::string& part)> begun;  ///< may be empty
 };
 
@@ -63,7 +63,7 @@ struct SelfReport {
   bool require_all = false;  ///< as in the options
 
   bool refuted() const { return count(PartState::failed) > 0; }
-  /// All that ran held, and something did; with `require_all`, everything ran.
+  /// It was not stopped, nothing failed, and something held; with `require_all`, nothing was skipped.
   bool holds() const;
   std::size_t count(PartState state) const;
 };

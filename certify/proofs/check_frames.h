@@ -22,12 +22,12 @@ bool checkers_read(const std::vector<std::filesystem::path>& frames, const Frame
 /// Nothing after a stop. Precondition: request.proof. Throws what CheckerProcess and the frames throw.
 std::optional<CheckerVerdict> check_frames(CheckRequest request, FrameSource& frames);
 
-/// Whether the checker reads these files itself. It also gets a file whose name and first bytes are of no known kind,
-/// and refuses it.
+/// Whether the checker reads these files itself. It also gets a single file whose name and first bytes are of no known
+/// kind, and refuses it.
 bool left_to_checkers(const std::vector<std::filesystem::path>& files, const FrameReading& reading);
 
-/// Checks a proof in a file about the motion in `request.trajectory`: by check_proof() if it is left_to_checkers(),
-/// otherwise by check_frames(). Precondition: request.proof. Throws as these; Stopped.
+/// Checks a proof in a file about the motion in `request.trajectory`: by check_proof() if left_to_checkers(), otherwise
+/// by check_frames(). Precondition: request.proof. Throws what these throw, and Stopped after a stop.
 CheckerVerdict check_motion(const CheckRequest& request, const FrameReading& reading);
 
 }  // namespace noli

@@ -15,8 +15,8 @@
 namespace noli {
 namespace {
 
-/// The joined verdict, in the first rank; nothing if a rank refuses or was asked something else. Each rank checks a
-/// contiguous range of parts.
+/// The joined verdict, in the first rank. Nothing in other ranks, for a proof that cannot be cut, or unless all ranks
+/// were asked the same and accept their parts. Each rank checks a contiguous range of parts.
 std::optional<CheckerVerdict> accepted_in_ranks(const CheckRequest& request, Ranks& ranks,
                                                 const std::function<void(const std::string&)>& note) {
   const int threads = request.checkers > 0 ? request.checkers : ranks.threads();

@@ -13,10 +13,10 @@
 
 namespace noli {
 
-/// Checks one proof in all ranks; each rank must call it. Returns the joined verdict in the first rank if all were
-/// asked the same and accept; otherwise the first rank checks the whole proof. Returns nothing in other ranks. `note`:
-/// called in the first rank with the reason for that. Precondition: request.proof. Throws as check_motion() and
-/// Ranks::gather().
+/// Checks one proof in all ranks; each rank must call it. The first rank returns the joined verdict if all were asked
+/// the same and accept their parts; otherwise it checks the whole proof itself. Other ranks return nothing. `note`:
+/// called in the first rank when a rank was asked something else or did not accept its part; not when the proof cannot
+/// be shared. Precondition: request.proof. Throws as check_motion() and Ranks::gather().
 std::optional<CheckerVerdict> check_in_ranks(CheckRequest request, const FrameReading& reading, Ranks& ranks,
                                              const std::function<void(const std::string&)>& note);
 

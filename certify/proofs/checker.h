@@ -65,7 +65,8 @@ class CheckerProcess {
 /// Throws as CheckerProcess.
 std::optional<CheckerVerdict> checked(const CheckRequest& request);
 
-/// The verdict. Without one, throws Stopped with the reason: a stop, or request.deadline. Precondition: request.proof.
+/// Returns the verdict. Without one, throws Stopped: with the reason of the stop, else out_of_time if request.deadline
+/// has passed, else interrupted. Precondition: request.proof.
 CheckerVerdict verdict_or_stopped(std::optional<CheckerVerdict> verdict, const CheckRequest& request);
 
 /// Writes a proof to a running checker.

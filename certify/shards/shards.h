@@ -56,6 +56,7 @@ struct ShardOutcome {
   bool out_of_time = false;
 
   bool complete() const { return !interrupted && !out_of_time; }
+  /// Not while tasks are missing, whatever was found: the rest is undecided.
   bool refuted() const { return complete() && (first_touch || first_near); }
   bool holds() const { return complete() && !refuted() && !unproved; }
 };

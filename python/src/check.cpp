@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <noli/errors.h>
 #include <noli/proof.h>
 #include "certify/groups.h"
 #include "certify/process/hdf5_frames.h"

@@ -18,8 +18,8 @@
 namespace noli::report {
 
 struct PageRequest {
-  std::vector<std::filesystem::path>
-      inputs;  ///< at least one, in any order; names as in trajectory/formats/frame_names.h
+  /// At least one, in any order; names as in trajectory/formats/frame_names.h.
+  std::vector<std::filesystem::path> inputs;
   ReportLimits limits;
   FrameOrder order = FrameOrder::checked;  ///< `checked`: natural if the result of `noli verify` used that
   std::vector<std::string> keys;           ///< of arrays; empty: as that result says
@@ -31,9 +31,10 @@ struct AssembledPage {
   bool lacks_motion = false;  ///< it has a verdict about frames or a run without these
 };
 
-/// `begins`: called with the run among the inputs, before its motion is read. request.limits.progress: called while the
-/// motion is read; `after_motion`: when it is. Throws UsageError for inputs that a page does not show, or not together;
-/// InputError for a result that cannot be read or is about other files; Stopped.
+/// `begins`: called with the run among the inputs, if there is one, before its motion is read. request.limits.progress:
+/// called while the motion is read. `after_motion`: called once, after that. Throws UsageError for inputs that a page
+/// does not show, or not together; InputError for a result that cannot be read or is about other files; HelperError;
+/// Stopped; std::system_error.
 AssembledPage assemble_page(const PageRequest& request,
                             const std::function<void(const std::filesystem::path& run)>& begins,
                             const std::function<void()>& after_motion);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests how an answer takes its key-value pairs from the members of a result, and answers that no test of a command
-// sees.
+// Tests how an answer takes its key-value pairs from the members of a result, and the answers about reproduced windows
+// and exports.
 #include <gtest/gtest.h>
 
 #include "report/answer.h"

@@ -14,7 +14,6 @@
 #include <noli/errors.h>
 #include "audit/fuzz/proofs/claim_oracle.h"
 #include "audit/fuzz/proofs/minimise_proof.h"
-#include "audit/fuzz/proofs/proof_cases.h"
 #include "certify/proofs/parsed_claim.h"
 #include "proofs/prover/tokens/proof_file.h"
 #include "tests/support/temporary_folder.h"
@@ -350,11 +349,8 @@ TEST(ReplayProof, MakesItSmallerIfThatIsAskedForAndSomethingIsWrong) {
   const JudgedProof smaller = replay_proof(example_files(), true, differ, stop);
   EXPECT_LT(smaller.files.proof.size(), as_it_is.files.proof.size());
   EXPECT_EQ(kind_of(smaller.judgement), kind_of(as_it_is.judgement));
-}
-
-TEST(ProofCases, AreNoneForAUserWhoWouldNotWait) {
-  const std::atomic<bool> stop = true;
-  EXPECT_TRUE(proof_cases({}, stop).empty());
+  const Checkers agree{std::make_unique<FakeChecker>(rejects_all), std::make_unique<FakeChecker>(rejects_all)};
+  EXPECT_EQ(replay_proof(example_files(), true, agree, stop).files.proof, example_files().proof);
 }
 
 /// Requests a stop after this many answers, like a user who interrupts.

@@ -31,7 +31,7 @@ struct Checkers {
 using MakeCheckers = std::function<Checkers()>;
 
 /// noli_check_host, and noli_check_verified if it is there, beside this program. The verified checker ends early when
-/// `stop` is set, which must outlive the result and its checkers.
+/// `stop` is set. `stop` must outlive the result and its checkers.
 MakeCheckers checkers_beside_this_program(const std::atomic<bool>& stop);
 
 /// What came of one proof.

@@ -33,7 +33,7 @@ namespace noli::audit {
 /// Runs `noli` with these arguments. Called from several threads at once.
 using RunNoli = std::function<ProgramEnd(const std::vector<std::string>&)>;
 
-/// This program as the subject. Each run ends after 120 seconds, or when `stop` is set, which must outlive the result.
+/// This program as the subject. Each run ends after 120 seconds, or when `stop` is set. `stop` must outlive the result.
 /// Throws std::system_error if noli_check is missing: each scene would be a finding.
 RunNoli noli_as_subject(const std::atomic<bool>& stop);
 
