@@ -67,7 +67,7 @@ ExitCode run(SelfArguments& arguments) {
   const double seconds = watch.seconds();
   const Json json = audit::self_json(options, report, seconds);
   output.write("audit-self", audit::self_answer(json, report, seconds), json);
-  return exit_code_of(report.refuted(), report.holds());
+  return exit_code_of(report.refuted(), report.holds(options.require_all));
 }
 
 }  // namespace

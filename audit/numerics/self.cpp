@@ -87,7 +87,7 @@ class FindingsFolder {
 
 class SelfAudit {
  public:
-  explicit SelfAudit(const SelfOptions& options) : options_(options) { report_.require_all = options.require_all; }
+  explicit SelfAudit(const SelfOptions& options) : options_(options) {}
 
   SelfReport run() {
     try {
@@ -314,7 +314,7 @@ std::size_t SelfReport::count(PartState state) const {
   return static_cast<std::size_t>(std::ranges::count(parts, state, &SelfPart::state));
 }
 
-bool SelfReport::holds() const {
+bool SelfReport::holds(bool require_all) const {
   const bool all = complete && (!require_all || count(PartState::skipped) == 0);
   return all && !refuted() && count(PartState::held) > 0;
 }

@@ -59,12 +59,11 @@ struct SelfPart {
 
 struct SelfReport {
   std::vector<SelfPart> parts;
-  bool complete = true;      ///< false if it was stopped
-  bool require_all = false;  ///< as in the options
+  bool complete = true;  ///< false if it was stopped
 
   bool refuted() const { return count(PartState::failed) > 0; }
   /// It was not stopped, nothing failed, and something held; with `require_all`, nothing was skipped.
-  bool holds() const;
+  bool holds(bool require_all) const;
   std::size_t count(PartState state) const;
 };
 

@@ -34,9 +34,9 @@ std::string figures_text(const SelfPart& part) {
 }  // namespace
 
 Json self_json(const SelfOptions& options, const SelfReport& report, double seconds) {
-  Json json = {{"verdict", report.refuted() ? "finding"
-                           : report.holds() ? "holds"
-                                            : "undecided"},
+  Json json = {{"verdict", report.refuted()                    ? "finding"
+                           : report.holds(options.require_all) ? "holds"
+                                                               : "undecided"},
                {"held", report.count(PartState::held)},
                {"failed", report.count(PartState::failed)},
                {"skipped", report.count(PartState::skipped)},

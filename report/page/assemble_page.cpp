@@ -40,7 +40,7 @@ class PageAssembly {
   /// Reads the motion of the run, of the repair or of the frames.
   void show_motion();
 
-  /// Adds the verdicts, the pictures and where all comes from.
+  /// Adds the verdicts, the pictures, and the source of each part.
   AssembledPage finish();
 
  private:

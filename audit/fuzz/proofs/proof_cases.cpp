@@ -39,8 +39,8 @@ ProofCase read_case(const fs::path& proof, const std::vector<fs::path>& trajecto
   return made;
 }
 
-/// The proof or witness that `noli verify` writes of a motion with some claim; nothing if it writes none, as for some
-/// degenerate contacts, or if the user would not wait.
+/// The proof or witness that `noli verify` writes about a motion with this claim; nothing if it writes none, as for
+/// some degenerate contacts, or once `stop` is set.
 std::optional<ProofCase> made_case(const FrameMotion& motion, const std::vector<std::string>& claimed,
                                    const std::atomic<bool>& stop) {
   const ScratchFolder work_folder(ScratchFolder::Place::memory);
@@ -62,7 +62,7 @@ std::optional<ProofCase> made_case(const FrameMotion& motion, const std::vector<
   }
 }
 
-/// Proofs and witnesses of small motions, with all sorts of claims.
+/// Proofs and witnesses of small motions, with various claims.
 std::vector<ProofCase> made_cases(const std::atomic<bool>& stop) {
   const std::vector<std::vector<std::string>> claims = {{},
                                                         {"--strict"},

@@ -18,7 +18,7 @@
 
 namespace noli::audit {
 
-/// Queries of a file, and what each of them shows.
+/// The queries of a saved file, and the wrong answers to them.
 class SavedQueryFile {
  public:
   /// Asks `library`, which has to outlive this, about all queries; nullptr: the kernel is asked later. Throws
@@ -31,7 +31,7 @@ class SavedQueryFile {
   /// How many queries have an answer.
   std::size_t asked() const { return library_ ? found_.asked : saved_.size(); }
 
-  /// A line for each fault; empty if there is none.
+  /// One line for each wrong answer; empty if all answers are right.
   std::vector<std::string> differences() const;
 
   /// Shrinks each query that fails; equal results are listed once. Fewer when `stop` is set.
@@ -60,8 +60,8 @@ ReplayedQueries replay_files(const std::vector<std::string>& files, const Librar
 std::filesystem::path minimised_name(const std::filesystem::path& file, const std::filesystem::path& folder,
                                      std::size_t query);
 
-/// Makes what fails simpler and saves it in the folder under these names, or others that are not used yet. `command`
-/// asks a file again. Throws std::system_error.
+/// Shrinks each query that fails, and saves it in the folder under minimised_name(), or the next name that is free.
+/// `command`: gives the command that asks about a file again. Throws std::system_error.
 ReplayedQueries minimise_file(const SavedQueryFile& file, const std::filesystem::path& folder,
                               const std::function<std::string(const std::filesystem::path&)>& command,
                               const std::atomic<bool>& stop);

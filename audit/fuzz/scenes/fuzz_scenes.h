@@ -77,7 +77,7 @@ struct ReplayedScene {
   SceneJudgement judgement;
 };
 
-/// A saved scene again. `smaller`: it is made smaller if something is wrong.
+/// Judges a saved scene again. `smaller`: it is made smaller if something is wrong.
 ReplayedScene replay_scene(GeneratedScene scene, bool smaller, const RunNoli& noli);
 
 /// A scene for which `fails` holds and that is not simpler without one of its members, or with a shorter number. Stops
