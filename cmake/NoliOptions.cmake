@@ -19,10 +19,14 @@ set(NOLI_SANITIZE_WITHOUT "" CACHE STRING "Checks of these sanitizers to leave o
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
-find_program(NOLI_CCACHE ccache)
-mark_as_advanced(NOLI_CCACHE)
-if(NOLI_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${NOLI_CCACHE}")
+# Decided by the first configuration: with a compiler cache that is installed later (by the set-up of scripts/test, after scripts/demo), each
+# command would differ, and all be compiled again.
+if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(NOLI_CCACHE ccache NO_CACHE)
+  if(NOT NOLI_CCACHE)
+    set(NOLI_CCACHE "")
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${NOLI_CCACHE}" CACHE STRING "Program that starts the compiler, e.g. ccache; may be empty")
 endif()
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
