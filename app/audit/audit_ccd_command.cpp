@@ -46,7 +46,8 @@ struct AuditArguments {
   audit::AuditRequest request;
   std::string query_limit = "1s";
   std::uint64_t megabytes = 2000;
-  std::optional<std::string> time_limit, svg;
+  std::string time_limit;
+  std::optional<std::string> svg;
   OutputOptions results;
   std::vector<fs::path> frames;
   FrameOrder order = FrameOrder::checked;
@@ -77,9 +78,7 @@ ExitCode run_pipeline(const AuditArguments& arguments) {
 ExitCode run(AuditArguments& arguments) {
   audit::AuditRequest& request = arguments.request;
   settle_host(request.host, arguments.query_limit, arguments.megabytes);
-  if (arguments.time_limit) {
-    request.host.deadline = std::chrono::steady_clock::now() + parse_duration(*arguments.time_limit, "--time-limit");
-  }
+  request.host.deadline = begin_work(arguments.time_limit);
   if (request.files.empty() == arguments.frames.empty()) {
     throw UsageError("expected files of queries, or --frames, and not both");
   }
@@ -126,7 +125,7 @@ Command add_audit_ccd(CLI::App& audit) {
   command->add_option("--query-limit", arguments->query_limit, "A query that takes longer counts as hung: 500ms, 10s")
       ->capture_default_str()
       ->type_name("TIME");
-  command->add_option("--time-limit", arguments->time_limit, "Stop after this time: 60s, 5m, 1h")->type_name("TIME");
+  add_time_limit_option(*command, arguments->time_limit);
   command
       ->add_option("--memory-limit", arguments->megabytes,
                    "End a library's process when it uses more than this many megabytes")

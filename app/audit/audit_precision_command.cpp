@@ -72,9 +72,7 @@ ExitCode run(PrecisionArguments& arguments) {
   audit::PrecisionRequest& request = arguments.request;
   request.arithmetics = arithmetics(arguments.bits);
   request.stop = &interrupted();
-  if (!arguments.time_limit.empty()) {
-    request.deadline = std::chrono::steady_clock::now() + parse_duration(arguments.time_limit, "--time-limit");
-  }
+  request.deadline = begin_work(arguments.time_limit);
   const Output output(arguments.results, {arguments.scene}, outputs("--svg", arguments.svg));
   const auto form = arguments.brief ? integrator::Form::brief : integrator::Form::full;
   const integrator::Scene scene = integrator::read_scene(arguments.scene, form);

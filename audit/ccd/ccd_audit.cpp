@@ -30,15 +30,26 @@ QueryKind kind_of(const fs::path& path) {
   throw InputError(path.string(), "", "the name does not say what is asked; expected vertex-face or edge-edge in it");
 }
 
-/// Nothing when the user would not wait for it.
+/// Nothing when a stop was asked for meanwhile: what is known of other files is kept.
+std::optional<std::vector<QueryRecord>> read_queries(const AuditedFile& file) {
+  try {
+    return read_query_csv(file.path, file.kind);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
+/// Nothing once stopped or out of time.
 std::optional<QueriesWithTruth> prepare(AuditedFile& file, const AuditRequest& request) {
-  const std::vector<QueryRecord> records = read_query_csv(file.path, file.kind);
+  const auto read = read_queries(file);
+  if (!read) return std::nullopt;
+  const std::vector<QueryRecord>& records = *read;
   const bool edges = file.kind == QueryKind::edge_edge;
   const FeaturePair pair = edges ? FeaturePair::edge_edge : FeaturePair::vertex_face;
   QueriesWithTruth known{edges ? NOLI_CCD_EDGE_EDGE : NOLI_CCD_VERTEX_FACE, {}, {}};
   file.queries = records.size();
   for (std::size_t i = 0; i < records.size(); ++i) {
-    if (request.host.stopped()) return std::nullopt;
+    if (request.host.over()) return std::nullopt;
     const QueryRecord& record = records[i];
     known.queries.push_back(asked(record));
     const auto exact = exact_contact({pair, 3, record.x_t0, record.x_t1});

@@ -185,7 +185,7 @@ class PipelineRun {
   }
 
  private:
-  /// Finds all contacts; false if the user would not wait for it.
+  /// Finds all contacts; false once stopped or out of time.
   bool prepare(const Mesh& mesh, std::span<const Position> x_t0, std::span<const Position> x_t1) {
     Mesh kept = mesh;
     step_.number = drop_unreferenced_vertices(kept);
@@ -221,7 +221,7 @@ class PipelineRun {
 
   bool find_times() {
     for (const MeshContact& contact : step_.contacts) {
-      if (request_.host.stopped()) return false;
+      if (request_.host.over()) return false;
       step_.times.push_back(first_time(step_, contact));
     }
     if (!step_.times.empty()) outcome_.first_time = std::ranges::min(step_.times);

@@ -75,6 +75,8 @@ std::string small_run(const Folder& folder) {
   return run;
 }
 
+const std::string exact_library = std::string(NOLI_CCD_PLUGINS) + "/noli.so";
+
 /// A command that would take hours.
 struct Endless {
   const char* name;
@@ -148,6 +150,31 @@ const Endless long_work[] = {
      [](const Folder& folder) -> std::vector<std::string> {
        return {"ccd", pipe_in(folder, "vertex-vertex.csv")};
      }},
+    {"AuditCcdOfAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"audit", "ccd", "--library", exact_library, pipe_in(folder, "vertex-face.csv")};
+     }},
+    {"AuditCcdOfAPipelineAndAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"audit",
+               "ccd",
+               "--library",
+               exact_library,
+               "--frames",
+               folder.write("a.ply", two_triangles(1)),
+               pipe_in(folder, "b.ply")};
+     },
+     false},
+    {"AuditPrecisionOfALargeScene",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"audit", "precision", folder.write("s.json", large_scene().dump())};
+     },
+     false},
+    {"AuditPrecisionOfAPipe",
+     [](const Folder& folder) -> std::vector<std::string> {
+       return {"audit", "precision", pipe_in(folder, "s.json")};
+     },
+     false},
     {"VerifyAPipe",
      [](const Folder& folder) -> std::vector<std::string> {
        return {"verify", folder.write("a.ply", two_triangles(1)), pipe_in(folder, "b.ply")};
