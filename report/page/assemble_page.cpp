@@ -28,6 +28,9 @@ std::string_view tone_of_result(const Json& result) {
   return name(tone_of(word.is_string() ? word.get_ref<const std::string&>() : ""));
 }
 
+/// No window was committed where there is no scene.
+std::size_t windows_of_scene(const Json& scene) { return scene.is_null() ? 0 : scene["steps"]["list"].size(); }
+
 /// A page that is being made, step by step.
 class PageAssembly {
  public:
@@ -116,7 +119,8 @@ void PageAssembly::read_result_file(const std::filesystem::path& path) {
 void PageAssembly::put_frames_in_order() {
   FrameOrder order = request_.order;
   if (verified_ && order == FrameOrder::checked) {
-    const Json how = verified_->json.at("statement").value("order", Json());
+    const Json how =
+        as_written(verified_->path, [&] { return verified_->json.at("statement").value("order", Json()); });
     if (how.is_string() && how.get<std::string>().find("(--order natural)") != std::string::npos) {
       order = FrameOrder::natural;
     }
@@ -158,14 +162,12 @@ void PageAssembly::put_frames() {
 
 /// As the result says, unless told otherwise.
 FrameReading PageAssembly::reading() const {
-  try {
-    FrameReading reading = reading_of(verified_->json.value("inputs", Json::array()),
-                                      verified_->json.at("statement").value("bodies", Json::array()));
-    if (!request_.keys.empty()) reading.keys = request_.keys;
-    return reading;
-  } catch (const Json::exception&) {
-    throw InputError(verified_->path.string(), "", "is not a result of `noli verify --json`");
-  }
+  FrameReading reading = as_written(verified_->path, [&] {
+    return reading_of(verified_->json.value("inputs", Json::array()),
+                      verified_->json.at("statement").value("bodies", Json::array()));
+  });
+  if (!request_.keys.empty()) reading.keys = request_.keys;
+  return reading;
 }
 
 AssembledPage PageAssembly::finish() {
@@ -182,7 +184,7 @@ void PageAssembly::put_verdict_of_verify() {
   const auto& [path, json] = *verified_;
   if (run_) {
     const VerifiedSteps steps = verified_steps(json, path);
-    const std::size_t windows = report_.page["scene"]["steps"]["list"].size();
+    const std::size_t windows = windows_of_scene(report_.page["scene"]);
     if (!steps.run || steps.count != windows) {
       throw InputError(path.string(), "",
                        fmt::format("is about {} {}, but the run has {} windows", steps.count,

@@ -24,16 +24,6 @@ namespace {
 constexpr std::size_t most_listed = 1000, most_inputs = 200;
 constexpr std::uint64_t most_digits = 1'000'000'000'000'000;  ///< from here a page writes exponents
 
-/// Calls f, which takes members as they should be.
-template <class F>
-auto as_written(const std::filesystem::path& path, F&& f) {
-  try {
-    return f();
-  } catch (const Json::exception& error) {
-    throw InputError(path.string(), "", fmt::format("is not a result of noli verify: {}", error.what()));
-  }
-}
-
 std::string pairs(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pair" : "pairs"); }
 
 /// What is said of a run that ended before its scene does.

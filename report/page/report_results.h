@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
+#include <noli/errors.h>
 #include "report/page/report_page.h"
 
 namespace noli::report {
@@ -20,6 +22,16 @@ Json read_result(const std::filesystem::path& path);
 bool is_of_verify(const Json& result);
 
 bool is_of_repair(const Json& result);
+
+/// Calls f, which takes members of a result of `noli verify` as they should be. Throws InputError where they are not.
+template <class F>
+auto as_written(const std::filesystem::path& path, F&& f) {
+  try {
+    return f();
+  } catch (const Json::exception& error) {
+    throw InputError(path.string(), "", std::string("is not a result of noli verify: ") + error.what());
+  }
+}
 
 /// Of how many frames, or windows of a run, a result of `noli verify` is, and which of the two. Throws InputError when
 /// it does not say.

@@ -152,6 +152,9 @@ TEST_F(Report, OfARunWithoutAnyWindow) {
   EXPECT_TRUE(says(json, "at 0.3125 s"));
   EXPECT_TRUE(json["scene"].is_null());
   EXPECT_TRUE(json["plots"].empty());
+  const std::string result = folder.path("result.json");
+  ASSERT_EQ(run_noli({"verify", run, "--json", result}).exit_code, 2);
+  EXPECT_TRUE(page({run, result})["scene"].is_null());
   change_end(run, {{"end", "done"}});
   expect_verdict({run}, "undecided", "open");
 }
@@ -499,6 +502,8 @@ TEST_F(Report, RefusesWhatDoesNotFit) {
   write({folder.write("other.json", other.dump()), frames[0], frames[1]}, 3, "names vertex 4, but the mesh");
   other["reports"]["contacts"][0].erase("step");
   write({folder.write("damaged.json", other.dump())}, 3, "is not a result of noli verify");
+  other["statement"] = 1;
+  write({folder.write("other.json", other.dump())}, 3, "is not a result of noli verify");
 }
 
 TEST_F(Report, ReplacesNothingUnasked) {
