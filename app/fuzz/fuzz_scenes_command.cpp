@@ -37,7 +37,7 @@ struct ScenesArguments {
 };
 
 ExitCode fuzz(ScenesArguments& arguments) {
-  if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay or --minimise");
+  if (arguments.wrong_place) throw UsageError("--wrong-place goes with --replay");
   const Output output = begin_fuzzing(arguments.common, {});
   audit::SceneFuzzOptions options;
   set_common(options, arguments.common);
@@ -50,6 +50,8 @@ ExitCode replay(const ScenesArguments& arguments) {
   const fs::path file = arguments.replay.saved();
   const Output output(arguments.common.results, {file});
   if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
+  if (arguments.wrong_place && arguments.replay.minimise)
+    throw UsageError("--wrong-place: a scene that is wrong somewhere is not minimised; use it with --replay");
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
   const audit::GeneratedScene given{audit::read_saved_scene(file), arguments.wrong_place};
@@ -82,7 +84,7 @@ Command add_fuzz_scenes(CLI::App& fuzz_app) {
   add_replay_options(*command, arguments->replay, "scene", "SCENE.json", {});
   command
       ->add_option("--wrong-place", arguments->wrong_place,
-                   "With --replay or --minimise: the scene is wrong there, as in /bodies/0/mesh")
+                   "With --replay: the scene is wrong there, as in /bodies/0/mesh")
       ->type_name("PLACE");
   return {command, [arguments] { return arguments->replay.given() ? replay(*arguments) : fuzz(*arguments); }};
 }

@@ -158,6 +158,9 @@ class SceneJudge {
   SceneJudgement judgement_;
 };
 
+/// A scene that is said to be wrong somewhere is kept as it is: without some part it may be right, or wrong elsewhere.
+bool can_shrink(const GeneratedScene& scene) { return !scene.wrong_place; }
+
 struct JudgedScene {
   GeneratedScene made;
   std::string generator;
@@ -219,8 +222,7 @@ class SceneFuzzing : public Fuzzing<SceneFuzzing, SceneFuzzOptions, SceneFuzzRep
     const std::string kind(kind_of(finding.difference));
     const auto now = [&](const SceneJson& scene) { return judge({scene, one.made.wrong_place}).difference; };
     const auto fails = [&](const SceneJson& scene) { return is_of_kind(now(scene), kind); };
-    // A scene that is wrong stays wrong in other places when something is left out: its message proves nothing then.
-    if (!one.made.wrong_place) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
+    if (can_shrink(one.made)) finding.shrunk = minimise(finding.scene, fails, options_.shrink_budget);
     finding.difference = now(finding.shrunk).value_or(finding.difference);
     keep(std::move(finding), [this](SceneFinding& kept) { save(kept); });
   }
@@ -262,7 +264,7 @@ SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli) { r
 ReplayedScene replay_scene(GeneratedScene scene, bool smaller, const RunNoli& noli) {
   const auto judge = [&](const SceneJson& candidate) { return judge_scene({candidate, scene.wrong_place}, noli); };
   SceneJudgement judgement = judge(scene.scene);
-  if (judgement.difference && smaller) {
+  if (judgement.difference && smaller && can_shrink(scene)) {
     const std::string kind(kind_of(*judgement.difference));
     scene.scene = minimise(
         scene.scene, [&](const SceneJson& candidate) { return is_of_kind(judge(candidate).difference, kind); }, 1000);

@@ -369,17 +369,36 @@ TEST(FuzzScenesCommand, JudgesASceneAgain) {
   EXPECT_NE(wrong.out.find("accepted: /bodies/0/mesh"), std::string::npos) << wrong.out;
 }
 
-TEST(FuzzScenesCommand, DoesNotOverwriteWhatItMinimises) {
+/// Its checker accepts nothing.
+TEST(FuzzScenesCommand, MakesAFindingSmallBesideTheScene) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", ring_scene), smaller = folder.path("scene-minimised.json");
+  std::filesystem::copy_file(NOLI_COMMAND, folder.path("noli"));
+  std::filesystem::permissions(folder.write("noli_check", takes_nothing), std::filesystem::perms::owner_all);
+  ProcessOptions faulty;
+  faulty.program = folder.path("noli");
+  const Process process = run_noli({"fuzz", "scenes", "--minimise", scene, "--out", folder.path("")}, faulty);
+  EXPECT_EQ(process.exit_code, 1) << process.out << process.err;
+  EXPECT_NE(process.out.find("saved as " + smaller), std::string::npos) << process.out;
+  EXPECT_LT(Json::parse(read_text(smaller)).dump().size(), Json::parse(ring_scene).dump().size());
+  EXPECT_EQ(read_text(scene), ring_scene);
+  EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", smaller}, faulty).exit_code, 1) << "it still shows it";
+  EXPECT_EQ(run_noli({"fuzz", "scenes", "--minimise", scene, "--out", folder.path("none")}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("none"))) << "nothing was wrong";
+}
+
+TEST(FuzzScenesCommand, TakesAWrongPlaceOfASceneToReplayOnly) {
   const Folder folder;
   const std::string scene = folder.write("scene.json", ring_scene);
   const Process process =
       run_noli({"fuzz", "scenes", "--minimise", scene, "--wrong-place", "/bodies/0/mesh", "--out", folder.path("")});
-  EXPECT_EQ(process.exit_code, 1) << process.err;
-  EXPECT_NE(process.out.find("saved as " + folder.path("scene-minimised.json")), std::string::npos) << process.out;
-  std::ifstream file(scene);
-  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), ring_scene);
+  EXPECT_EQ(process.exit_code, 3) << process.out;
+  EXPECT_NE(process.err.find("--wrong-place: a scene that is wrong somewhere is not minimised"), std::string::npos);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--count", "1", "--wrong-place", "/bodies"}).exit_code, 3);
   EXPECT_EQ(run_noli({"fuzz", "scenes", "--replay", scene, "--wrong-place", "bodies"}).exit_code, 3);
+}
+
+TEST(FuzzTrajectoriesCommand, RefusesAFamilyThatItDoesNotKnow) {
   EXPECT_EQ(run_noli({"fuzz", "trajectories", "--count", "1", "--family", "landings"}).exit_code, 3);
 }
 
