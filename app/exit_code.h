@@ -15,7 +15,7 @@ enum class ExitCode {
   failure = 4     ///< an internal check failed, or the machine did
 };
 
-/// The exit code of a search for failures: `refuted` if there is one, otherwise `holds` or undecided.
+/// `refuted` comes first: what was found stays found, also where the work was not finished.
 inline ExitCode exit_code_of(bool refuted, bool holds) {
   if (refuted) return ExitCode::refuted;
   return holds ? ExitCode::holds : ExitCode::undecided;

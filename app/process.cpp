@@ -105,6 +105,14 @@ void hold_standard_descriptors() {
   }
 }
 
+/// Whoever started this may have kept signals from it, for as long as it lives.
+void hear_signals() {
+  sigset_t heard;
+  ::sigemptyset(&heard);
+  for (const int signal : {signal_of_limit(), SIGALRM, SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&heard, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
+}
+
 }  // namespace
 
 const std::atomic<bool>& interrupted() { return user_asked; }
@@ -125,14 +133,6 @@ void stop_after(std::chrono::nanoseconds limit) {
   if (::timer_settime(timer_of_limit(), 0, &when, nullptr) != 0) {
     throw std::system_error(errno, std::generic_category(), "the time limit");
   }
-}
-
-/// Whoever started this may have kept signals from it, for as long as it lives.
-void hear_signals() {
-  sigset_t heard;
-  ::sigemptyset(&heard);
-  for (const int signal : {signal_of_limit(), SIGALRM, SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&heard, signal);
-  ::pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
 }
 
 void install_signal_handlers() {

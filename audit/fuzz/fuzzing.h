@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The harness of a fuzzer: what is in its corpus is judged first, then blocks of items that it makes; what is wrong is
-// kept, made smaller and saved, and what reached something new joins the corpus.
+// The harness of a fuzzer. It judges the items of the corpus first, then blocks of new items. Findings are kept, shrunk
+// and saved; items of a new shape join the corpus.
 //
 // Notation
-//   item     something that was made, or saved before, with what the judge says of it
-//   block    a few items, made and judged by one thread; block b depends on the seed and b alone, so that a run gives
-//            the same items whatever the number of threads
+//   item     something that was made, or saved before, with its judgement
+//   block    a few items, made and judged by one thread. Block b depends only on the seed and b, so a run has the same
+//            items for any number of threads
 //   shape    what a judgement is like, in words
-//   subject  who derives from Fuzzing: it makes, judges, counts, shrinks and saves items. It has
+//   subject  the class that derives from Fuzzing. It makes, judges, counts, shrinks and saves items. It has
 //              items_per_block                  a constant
-//              make(block, index, random)       an item, or nothing when the user would not wait; called from several
-//                                               threads. Who has something to do for a whole block has make_block
-//              take(item, index)                counts it; then add_if_new, or is_kept and keep
-//              take_saved(name)                 the same of what is in the corpus; false when the user would not wait.
-//                                               Where a corpus is no list of names, the subject has run_corpus and
-//                                               count_corpus instead
+//              make(block, index, random)       an item, or nothing once stopped; called from several threads. A
+//                                               subject that needs something once for each block has make_block instead
+//              take(item, index)                counts it; then calls add_if_new, or is_kept and keep
+//              take_saved(name)                 the same for an item of the corpus; false once stopped. If the corpus
+//                                               is not a list of names, it has run_corpus and count_corpus instead
 //              items()                          how many were counted
 //
-// What this does not do: it knows nothing of what an item is.
+// What this does not do: it does not know what an item is.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A folder of what reached something new, each thing in a folder of its own with the file `shape`, one line that says
-// what: of motions, proofs, scenes. That file is written last, so that what was cut off does not count.
+// The corpus of a fuzzer of motions, proofs or scenes: a folder with one folder for each item of a new shape. Its file
+// `shape` has that shape in one line. It is written last, so a folder that was cut off does not count.
 //
-// What this does not do: it does not know what the things are.
+// What this does not do: it does not know what the items are.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * What noli_mpi.so gives `noli`, which loads it only where mpirun started it: ranks that share a counter of tasks. All
- * functions are called one at a time, and return 0 where all went well.
+ * functions are called one at a time, and return 0 where all went well, 2 where MPI failed.
  */
 #pragma once
 
@@ -20,7 +20,8 @@ struct noli_mpi_place {
 
 int32_t noli_mpi_version(void);
 
-/* Begins. `program`: version and commit, NOLI_MPI_PROGRAM_BYTES bytes; 1 if not all ranks have the same ones. */
+/* Begins. `program`: version and commit, NOLI_MPI_PROGRAM_BYTES bytes; 1 if not all ranks have the same ones, 3 if this
+ * MPI does not let several threads call it one at a time. */
 int noli_mpi_begin(const char* program, struct noli_mpi_place* place);
 /* The next task that no rank has taken yet: 0, 1, ... */
 int noli_mpi_next(uint64_t* task);
@@ -28,7 +29,7 @@ int noli_mpi_next(uint64_t* task);
 int noli_mpi_close_counter(void);
 /* What noli_mpi_next() would give, without taking it. */
 int noli_mpi_look(uint64_t* task);
-/* Waits for all ranks, which call it in turn; `code` of rank 0 becomes that of all. */
+/* Waits until all ranks have called it; `code` of rank 0 becomes that of all. */
 int noli_mpi_barrier(int32_t* code);
 /* Sends bytes of all ranks to rank 0, 2^31 - 1 in all at most; 4 if there are more. Rank 0 gets how many each rank has,
  * and the bytes of one rank after another's: both stay until the next call. The others get nulls. */

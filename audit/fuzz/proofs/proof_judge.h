@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is to be thought of a mutant of a good proof: whether both checkers say the same, and what is true.
+// Judges a mutant of a good proof: whether both checkers say the same, and whether that is true.
 //
 // Notation
-//   truth    whether the claim of a proof holds of its trajectory. Where neither was changed, what was true of the case
-//            is; where one was, the slow oracle tells (audit/fuzz/proofs/claim_oracle.h), whatever the proof says
+//   truth    whether the claim of a proof holds for its trajectory. If neither was changed, it is that of the case. If
+//            one was, the slow oracle decides it (audit/fuzz/proofs/claim_oracle.h), whatever the proof says
 //
-// What this does not do: a mutant that is rejected although its proof is good is no difference; a changed claim about a
-// run is not judged, the checkers are only compared.
+// What this does not do: a rejected mutant whose proof is good is not a finding. A changed claim about a run is not
+// judged; the checkers are only compared.
 #pragma once
 
 #include <atomic>

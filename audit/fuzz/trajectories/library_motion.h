@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a library of continuous collision detection makes of a motion of a mesh, step by step, as a whole pipeline: its
-// search for candidates, or all pairs if it has none, then its query for each of them (audit/ccd/ccd_pipeline.h).
+// Runs a library of continuous collision detection on each step of a motion of a mesh, as a whole pipeline: its search
+// for candidates, or all pairs if it has none, then its query for each of them (audit/ccd/ccd_pipeline.h).
 //
-// Faults, of a pair of features that meets first at t*
+// Faults of a pair of features that meets first at t*
 //   not_found        it is not among the candidates
 //   false_negative   "no hit", but they meet
 //   bad_time, no_time, late   a time outside [0, 1]; none (NaN) from a library that knows times; one after t*
-// and of a step
-//   crash, hang, memory   how the process ended in which the library ran
+// Faults of a step
+//   crash, hang, memory   how the library's process ended
 //   failure          the search, or a query, returned neither of its answers
-//   bad_pair         candidates that are no two features without a vertex in common
-//   leak             memory grew whenever all was asked again
-// and of a library that claims to be exact also
+//   bad_pair         a candidate is not two features without a common vertex
+//   leak             memory grew each time all queries were asked again
+// Further faults of a library that claims to be exact
 //   false_positive   "hit", but they stay apart
 //   early            a time that is not t* rounded down to double
-// The first of these words that fits the first step that has one is told.
+// Of the first step with a fault, the first of these words that fits is reported.
 //
-// What this does not do: it knows no contacts but those of a vertex and a face and of two edges, in 3D; motions in a
-// plane are ones in space here.
+// What this does not do: only contacts of a vertex and a face and of two edges in 3D are known. Motions in a plane are
+// taken as motions in space.
 #pragma once
 
 #include <array>

@@ -75,7 +75,9 @@ VerifyProgram::VerifyProgram(std::uint64_t verified_every, const std::atomic<boo
       plain_(beside_this_program("noli_check")),
       verified_(beside_this_program("noli_check_verified")),
       has_verified_(has_checker(Checker::verified)),
-      verified_every_(verified_every) {}
+      verified_every_(verified_every) {
+  require_startable(plain_.string());
+}
 
 MotionAnswer VerifyProgram::operator()(const FrameMotion& motion) {
   const std::uint64_t number = number_++;

@@ -16,7 +16,7 @@ namespace noli::audit {
 class VerifyProgram {
  public:
   /// The verified checker, where there is one, is asked about one motion of `verified_every`. When `stop` becomes true
-  /// the programs are ended. Throws std::runtime_error when noli or noli_check are not there.
+  /// the programs are ended. Throws std::system_error when noli_check cannot be started.
   VerifyProgram(std::uint64_t verified_every, const std::atomic<bool>& stop);
 
   MotionAnswer operator()(const FrameMotion& motion);
