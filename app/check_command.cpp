@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/progress.h"
+#include "certify/process/run_program.h"
 #include "certify/proofs/asked_fields.h"
 #include "certify/proofs/check_frames.h"
 #include "certify/proofs/check_parts.h"
@@ -24,6 +26,8 @@
 #include "integrator/scene/json_text.h"
 #include "report/check_report.h"
 #include "report/joined_check.h"
+#include "trajectory/blocks/folder_lock.h"
+#include "trajectory/blocks/run_file.h"
 #include "trajectory/formats/frame_names.h"
 #include "trajectory/stop.h"
 #include "trajectory/text.h"
@@ -125,12 +129,41 @@ OrderedFrames ordered_bodies(CheckArguments& arguments) {
   return ordered;
 }
 
+/// What to do about a run without a proof; nothing if it is not a run.
+std::string way_without_proof(const fs::path& run) {
+  const std::string name = shell_words({run.string()});
+  try {
+    if (RunReader(run).header().record == RecordMode::full) {
+      return fmt::format("; `noli verify {} --proof OUT.noli` makes one", name);
+    }
+    return fmt::format(
+        ", but the run recorded only frames; `noli verify {} --reproduce` integrates its windows again and verifies "
+        "them",
+        name);
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+/// Reads no more of a run than where its windows end. It is for a hint only, so it never fails.
+report::RunState state_of_run(const fs::path& run) {
+  if (is_locked(run)) return report::RunState::being_written;
+  try {
+    RunReader reader(run);
+    if (reader.header().record == RecordMode::frames) return report::RunState::only_frames;
+    while (!stop_asked() && reader.skip_window()) continue;
+    if (!stop_asked() && reader.open_window()) return report::RunState::open_window;
+  } catch (const std::exception&) {
+  }
+  return report::RunState::complete;
+}
+
 /// The file of the proof. Throws InputError if it does not exist, UsageError if it is a folder.
 fs::path proof_of(const CheckArguments& arguments, bool folder) {
   fs::path proof = folder ? arguments.files[0] / "proof.blocks" : arguments.files[0];
   if (!fs::exists(proof)) {
-    const char* why = folder ? " (a run that is recorded as frames, or with --no-proof, has none)" : "";
-    throw InputError(proof.string(), "", std::string("does not exist; expected a proof") + why);
+    throw InputError(proof.string(), "",
+                     "does not exist; expected a proof" + (folder ? way_without_proof(arguments.files[0]) : ""));
   }
   if (fs::is_directory(proof)) throw UsageError(proof.string() + ": is a folder; expected a proof, or only a run");
   return proof;
@@ -185,7 +218,8 @@ ExitCode run(CheckArguments& arguments) {
   std::vector<std::string> notes = ordered.notes, asked = arguments.require;
   const auto part = asked_part(arguments, proof, asked);
   if (arguments.claim) ask_for_claim(*arguments.claim, asked);
-  if (trajectory.size() == 1 && fs::is_directory(trajectory[0])) {
+  const bool of_run = trajectory.size() == 1 && fs::is_directory(trajectory[0]);
+  if (of_run) {
     if (output && !arguments.results.quiet) note_if_being_written(trajectory[0]);
     ask_for_all_windows(trajectory[0], asked, notes);
   }
@@ -205,7 +239,8 @@ ExitCode run(CheckArguments& arguments) {
   if (!verdict || !output) return end_of(*ranks, ExitCode::holds);  // the first rank's becomes that of all
   constexpr std::string_view at_fault = "rejected: the command line, ";
   if (verdict->words.starts_with(at_fault)) throw UsageError(first_line(verdict->words).substr(at_fault.size()));
-  const report::Checked checked{version_of(which), proof, asked, *verdict, notes, least_steps};
+  report::Checked checked{version_of(which), proof, asked, *verdict, notes, least_steps};
+  if (of_run && verdict->code == 3) checked.run = state_of_run(trajectory[0]);
   output->write("check", report::check_answer(checked), report::check_json(checked));
   const auto code = static_cast<ExitCode>(verdict->code);
   return ranks ? end_of(*ranks, code) : code;

@@ -63,6 +63,7 @@ class RunVerification : private Verification {
     outcome_.points = mesh.points.size();
     outcome_.not_compared = not_compared(mesh, reader_.scene().labels, reader_.scene().exclusions, log_.names);
     outcome_.reproduced = request.reproduce;
+    outcome_.only_frames = reader_.header().record == RecordMode::frames;
     outcome_.claim = claim_of_run(request, reader_.scene());
     outcome_.claim.steps = outcome_.steps_total;
     if (request.decided) request.decided->set_claim(outcome_.claim);

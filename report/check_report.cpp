@@ -48,25 +48,33 @@ const char* word_of(const CheckerVerdict& verdict) {
   return verdict.code == 0 ? "accepted" : verdict.code == 1 ? "refuted" : "rejected";
 }
 
-std::string next_step(const CheckerVerdict& verdict, bool can_be_verified) {
-  const std::string line = first_line(verdict.words);
+std::string after_rejection(const std::string& line, RunState run) {
   const bool names_remedy = line.find("asks for that") != std::string::npos,
              asks_too_far = line.find("has none of the steps") != std::string::npos;
+  if (names_remedy) return "";
+  if (asks_too_far) return "ask for steps that the proof has.";
+  switch (run) {
+    case RunState::only_frames:
+      return "the run recorded only frames, so no proof of it can be checked; noli verify RUN --reproduce verifies it.";
+    case RunState::open_window: return "the run ends within a window; resume it first (noli simulate ... --resume).";
+    case RunState::being_written: return "the run is being written; check it again when it has ended.";
+    case RunState::complete: break;
+  }
+  return "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
+}
+
+std::string next_step(const CheckerVerdict& verdict, RunState run, bool can_be_verified) {
   switch (verdict.code) {
     case 0: return can_be_verified ? "--verified asks the checker whose soundness is proved in Coq." : "";
     case 1: return "noli verify with the same frames or run shows where and when.";
-    default:
-      return names_remedy ? ""
-             : asks_too_far
-                 ? "ask for steps that the proof has."
-                 : "check that these are the frames of the proof, or make it again: noli verify ... --proof OUT.";
+    default: return after_rejection(first_line(verdict.words), run);
   }
 }
 
 }  // namespace
 
 Json check_json(const Checked& checked) {
-  const auto& [checker, proof, asked, verdict, notes, least_steps, joined] = checked;
+  const auto& [checker, proof, asked, verdict, notes, least_steps, joined, run] = checked;
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
   Json json = {{"verdict", word_of(verdict)},
                {"checker", checker_json(checker)},
@@ -83,7 +91,7 @@ Json check_json(const Checked& checked) {
 
 /// The checker's first line without its verdict is the place; the line for programs is among the details.
 Answer check_answer(const Checked& checked) {
-  const auto& [checker, proof, asked, verdict, notes, least_steps, joined] = checked;
+  const auto& [checker, proof, asked, verdict, notes, least_steps, joined, run] = checked;
   const std::string line = first_line(verdict.words);
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
@@ -101,7 +109,7 @@ Answer check_answer(const Checked& checked) {
   const std::size_t at = what.find(touches);
   if (claim && verdict.code == 0 && at != std::string::npos) what.insert(at + touches.size(), distance_phrase(*claim));
   answer.place = fmt::format("{} ({} {})", what, checker.name, checker.version);
-  answer.next = next_step(verdict, checker.name == "noli_check" && joined == 0 && has_checker(Checker::verified));
+  answer.next = next_step(verdict, run, checker.name == "noli_check" && joined == 0 && has_checker(Checker::verified));
   return answer;
 }
 

@@ -15,6 +15,9 @@
 
 namespace noli::report {
 
+/// Of a run, why no proof of it may be accepted as it is now.
+enum class RunState { complete, only_frames, open_window, being_written };
+
 /// What a checker said of a proof, and what it was asked.
 struct Checked {
   CheckerVersion checker;
@@ -24,6 +27,7 @@ struct Checked {
   std::vector<std::string> notes;
   std::uint64_t least_steps = 0;  ///< of a part: how many steps the whole has to have, by a claim or the log of a run
   std::size_t joined = 0;         ///< from so many answers about parts; 0: the checker looked at all that was asked
+  RunState run = RunState::complete;  ///< of the run that was checked; not looked for if the proof was accepted
 };
 
 /// Schema check.

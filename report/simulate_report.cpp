@@ -99,7 +99,7 @@ std::string unstable_text(const SimulateOutcome& outcome) {
   const EnergyAstray& energy = *outcome.energy_astray;
   return fmt::format(
       "{} But the energy drifts: from {:.3g} J to {:.3g} J at {} s, without what {} gave. Nothing touches, but the "
-      "motion is not that of the scene: its steps are too long, also for damping, or resonate (`noli explain`).",
+      "motion is not that of the scene: its steps are too long, also for damping, or resonate.",
       nothing_touches(outcome.not_compared, span(outcome)), energy.begin, energy.there, digits17(energy.time),
       energy.may_fall ? "scripts" : "damping, friction and scripts");
 }
@@ -190,27 +190,63 @@ std::string place(const SimulateOutcome& outcome) {
   return "";
 }
 
+/// The command that goes on with the run, or begins it again, with all options that decide what is simulated.
+std::string command_to_go_on(const SimulateRequest& request, const SimulateOutcome& outcome, const std::string& run) {
+  std::vector<std::string> words = {"noli", "simulate", request.scene.string()};
+  if (request.brief) words.emplace_back("--short");
+  words.insert(words.end(), {"-o", run});
+  if (request.until) words.insert(words.end(), {"--until", fmt::format("{}", *request.until)});
+  if (request.past_duration) words.emplace_back("--past-duration");
+  if (request.ignore_space) words.emplace_back("--ignore-space");
+  if (outcome.begun) {
+    words.emplace_back("--resume");
+  } else {
+    if (!request.prove) words.emplace_back("--no-proof");
+    if (request.force) words.emplace_back("--force");
+  }
+  return shell_words(words);
+}
+
+/// `noli explain` refuses steps above their limits unless the scene accepts them; then it names none.
+std::string shorten_steps(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string scene = shell_words({request.scene.string()}),
+                    explain = fmt::format("noli explain {}{}", scene, request.brief ? " --short" : "");
+  if (outcome.allow_unstable) {
+    return fmt::format("remove \"allow_unstable\" from {}; {} then names any step that is too long.", scene, explain);
+  }
+  return fmt::format(
+      "{} says where steps are too long for the damping, or resonate; else lower \"step_factor\", or \"stability\" in "
+      "\"contact\".",
+      explain);
+}
+
+std::string make_room(const SimulateRequest& request, const SimulateOutcome& outcome) {
+  const std::string scene = shell_words({request.scene.string()});
+  if (outcome.start_gap && outcome.limit->time == 0) {
+    return fmt::format("let them begin further apart in {}, or lower \"thickness\" in its \"contact\".", scene);
+  }
+  if (outcome.allow_unstable) return shorten_steps(request, outcome);
+  return fmt::format(
+      "raise \"stiffness\" or \"thickness\" in \"contact\" of {}; where scripts press things together, leave a gap.",
+      scene);
+}
+
 /// What a user does now.
 std::string next_step(const SimulateRequest& request, const SimulateOutcome& outcome) {
   std::string path = request.run.string();
   while (path.size() > 1 && path.back() == '/') path.pop_back();
-  const std::string scene = shell_words({request.scene.string()}), run = shell_words({path}),
-                    page = shell_words({path + ".html"});
+  const std::string run = shell_words({path}), page = shell_words({path + ".html"});
   const std::string shown = has_report_page()
                                 ? fmt::format("noli report {} -o {}", run, page)
                                 : fmt::format("noli export {} -o {}", run, shell_words({path + "_%d.obj"}));
   switch (outcome.end) {
     case RunEnd::contact: return shown + " shows the motion up to there.";
     case RunEnd::unstable:
-    case RunEnd::not_finite: return fmt::format("noli explain {} shows which steps are too long.", scene);
-    case RunEnd::too_near: return fmt::format("noli explain {} shows how deep the layers went.", run);
+    case RunEnd::not_finite: return shorten_steps(request, outcome);
+    case RunEnd::too_near: return make_room(request, outcome);
     case RunEnd::interrupted:
     case RunEnd::out_of_time:
-    case RunEnd::out_of_memory:
-      return fmt::format("noli simulate {}{} -o {}{}", scene, request.brief ? " --short" : "", run,
-                         outcome.begun   ? " --resume"
-                         : request.force ? " --force"
-                                         : "");
+    case RunEnd::out_of_memory: return command_to_go_on(request, outcome, path);
     case RunEnd::done:
       if (outcome.windows == 0) return "";
       return fmt::format("{} shows the run; noli explain {} says how it went.", shown, run);

@@ -263,14 +263,24 @@ class VerifyText {
       case Verdict::contact: return after_contact();
       case Verdict::undecided: return after_stop();
       case Verdict::too_near: return after_too_near();
-      case Verdict::no_contact: return request_.check ? "" : "drop --no-check to have the proof checked.";
+      case Verdict::no_contact: return after_no_contact();
       case Verdict::proved: return after_proof();
     }
     return "";
   }
 
+  /// World lines in no file have no proof that can be kept.
+  static constexpr const char* record_in_full =
+      "record the run in full (\"record\": \"full\" in its scene) for a proof that anybody can check.";
+
+  std::string after_no_contact() const {
+    if (outcome_.only_frames) return record_in_full;
+    return request_.check ? "" : "drop --no-check to have the proof checked.";
+  }
+
   std::string after_proof() const {
     if (request_.proof) return "";
+    if (outcome_.only_frames) return record_in_full;
     std::error_code error;
     if (request_.run && std::filesystem::exists(proof_path(request_.frames[0]), error)) {
       return shell_words({"noli", "check", request_.frames[0].string()}) + " checks the proof that is in the run.";

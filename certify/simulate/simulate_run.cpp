@@ -83,6 +83,7 @@ class CertifiedRun {
     outcome_.dimension = Dim;
     outcome_.vertices = built_.model.x.size();
     outcome_.cells = built_.model.mesh.cell_count();
+    outcome_.allow_unstable = scene.allow_unstable;
     outcome_.window_length = scene.window;
     outcome_.not_compared = not_compared(scene_.mesh, scene_.labels, scene_.exclusions, names_);
     windows_asked_ = windows_of(request, scene);

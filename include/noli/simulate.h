@@ -99,6 +99,7 @@ struct SimulateOutcome {
   std::string title;
   int dimension = 3;
   std::size_t vertices = 0, cells = 0;
+  bool allow_unstable = false;  ///< the scene accepts steps above the limit of stability
   double window_length = 0;
   std::uint64_t windows = 0;                  ///< committed
   std::uint64_t windows_total = 0;            ///< these, and the least number still to come

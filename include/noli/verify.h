@@ -160,6 +160,7 @@ struct VerifyOutcome {
   bool interrupted = false;               ///< by the user
   bool out_of_time = false;
   bool open_window = false;         ///< a run that ends in a window which was never committed
+  bool only_frames = false;         ///< a run that recorded only frames: no file has its world lines
   std::optional<RunEnding> ending;  ///< of a run
   ContactCounts contacts{};
   std::uint64_t initial_intersections = 0;

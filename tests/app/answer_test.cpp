@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests how an answer takes its key-value pairs from the members of a result, and the answers about reproduced windows
-// and exports.
+// Tests how an answer takes its key-value pairs from the members of a result, and the answers about simulations,
+// reproduced windows and exports.
 #include <gtest/gtest.h>
 
 #include "report/answer.h"
@@ -64,6 +64,46 @@ TEST(ReproduceAnswer, SaysWhetherTheWindowIsThatOfTheRun) {
   EXPECT_EQ(answered(), "The window of the run" + hash + "verdict=same window=3 breakpoints=12\n");
   outcome.same = false;
   EXPECT_EQ(answered(), "A different window from the run's" + hash + "verdict=different window=3 breakpoints=12\n");
+}
+
+TEST(SimulateAnswer, RepeatsTheOptionsThatDecideWhatIsSimulated) {
+  SimulateRequest request;
+  request.scene = "my scene.json";
+  request.run = "run/";
+  SimulateOutcome outcome;
+  outcome.end = RunEnd::out_of_time;
+  const auto next = [&] {
+    return report::simulate_answer(report::simulate_json(request, outcome), request, outcome).next;
+  };
+  EXPECT_EQ(next(), "noli simulate 'my scene.json' -o run --resume");
+  request.brief = request.past_duration = request.ignore_space = request.force = true;
+  request.prove = false;
+  request.until = 0.1;
+  const std::string all = "noli simulate 'my scene.json' --short -o run --until 0.1 --past-duration --ignore-space";
+  EXPECT_EQ(next(), all + " --resume") << "what --no-proof and --force did is done";
+  outcome.begun = false;
+  EXPECT_EQ(next(), all + " --no-proof --force");
+}
+
+TEST(SimulateAnswer, NamesTheFieldThatAcceptsStepsThatAreTooLong) {
+  SimulateRequest request;
+  request.scene = "scene.json";
+  request.brief = true;
+  SimulateOutcome outcome;
+  outcome.energy_astray = EnergyAstray{};
+  outcome.limit = PairTooNear{};
+  outcome.not_finite = NotFinite{};
+  for (const RunEnd end : {RunEnd::unstable, RunEnd::not_finite, RunEnd::too_near}) {
+    outcome.end = end;
+    const auto next = [&](bool allow_unstable) {
+      outcome.allow_unstable = allow_unstable;
+      return report::simulate_answer(report::simulate_json(request, outcome), request, outcome).next;
+    };
+    EXPECT_EQ(next(true),
+              "remove \"allow_unstable\" from scene.json; noli explain scene.json --short then names any step that is "
+              "too long.");
+    EXPECT_EQ(next(false).find("allow_unstable"), std::string::npos) << name(end);
+  }
 }
 
 TEST(ExportAnswer, SaysWhatIsSpecialAboutTheRun) {

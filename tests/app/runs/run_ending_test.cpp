@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests what `noli verify RUN` reports about where a run ends, and why.
+// Tests what is reported about where a run ends, and why, and what to do about it.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/app/runs/simulate_fixture.h"
+#include "trajectory/blocks/folder_lock.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli::app_tests {
@@ -61,6 +64,56 @@ TEST_F(Simulate, VerifySaysThatARunWasInterruptedOrMayGoOn) {
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["run"]["end"], nullptr);
   const std::string out = run_noli({"verify", run_path("run")}).out;
   EXPECT_NE(out.find("(it may still be going on, or was killed).\n"), std::string::npos) << out;
+}
+
+/// Of the line "Next: ...".
+std::string next_of(const Process& process) {
+  const std::string out = '\n' + process.out, begin = "\nNext: ";
+  const std::size_t at = out.find(begin);
+  if (at == std::string::npos) return "";
+  return out.substr(at + begin.size(), out.find('\n', at + 1) - at - begin.size());
+}
+
+/// A kill leaves a part of a window that was never committed.
+TEST_F(Simulate, CheckSaysThatARunWhichEndsWithinAWindowHasToBeResumed) {
+  const std::string file = scene(hanging_sheet()), run = run_path("run");
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run, "--until", "0.05"}).exit_code, 0);
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run_path("longer"), "--until", "0.06"}).exit_code, 0);
+  const std::string committed = blocks("run"), longer = blocks("longer");
+  ASSERT_TRUE(longer.starts_with(committed) && longer.size() > committed.size() + 200);
+  std::ofstream(run + "/trajectory.blocks", std::ios::binary) << longer.substr(0, committed.size() + 200);
+  EXPECT_EQ(run_noli({"verify", run, "--proof", run_path("proof.noli")}).exit_code, 0);
+  for (const std::vector<std::string>& check :
+       {std::vector<std::string>{"check", run}, {"check", run_path("proof.noli"), run}}) {
+    const Process process = run_noli(check);
+    EXPECT_EQ(process.exit_code, 3) << process.out;
+    EXPECT_NE(next_of(process).find("resume it first (noli simulate ... --resume)"), std::string::npos) << process.out;
+  }
+  {
+    const FolderLock writer(run);
+    EXPECT_NE(next_of(run_noli({"check", run})).find("when it has ended"), std::string::npos);
+  }
+  ASSERT_EQ(run_noli({"simulate", file, "-o", run, "--resume"}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", run}).exit_code, 0);
+}
+
+/// Following the advice goes on with what was asked for, and does not stop at the scene's duration.
+TEST_F(Simulate, TheNextStepOfAStoppedRunGoesOnWithWhatWasAskedFor) {
+  const std::string file = scene(resting_bar(1, 0.5)), run = run_path("run");
+  const Process stopped = run_noli(
+      {"simulate", file, "-o", run, "--until", "1e6", "--past-duration", "--ignore-space", "--time-limit", "500ms"});
+  ASSERT_EQ(stopped.exit_code, 2) << stopped.err;
+  EXPECT_EQ(next_of(stopped),
+            "noli simulate " + file + " -o " + run + " --until 1000000 --past-duration --ignore-space --resume");
+  std::istringstream line(next_of(stopped));
+  std::vector<std::string> words;
+  for (std::string word; line >> word;) words.push_back(word);
+  ASSERT_FALSE(words.empty());
+  words.erase(words.begin());
+  words.insert(words.end(), {"--time-limit", "2s"});
+  const Process resumed = run_noli(words);
+  EXPECT_EQ(resumed.exit_code, 2) << resumed.out << resumed.err;
+  EXPECT_EQ(next_of(resumed), next_of(stopped));
 }
 
 TEST_F(Simulate, VerifyDoesWithoutLogAndScene) {

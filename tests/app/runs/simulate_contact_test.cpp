@@ -101,6 +101,9 @@ TEST_F(Simulate, AGapWithinAllLayersAtTheStartIsTold) {
   EXPECT_NE(told.out.find("the scene begins with them 0.0078125 m apart, within the thickness of contact, 0.1 m"),
             std::string::npos)
       << told.out;
+  EXPECT_NE(told.out.find("\nNext: let them begin further apart in " + file + ", or lower \"thickness\""),
+            std::string::npos)
+      << told.out;
   // At half this depth in the first layer, there is enough space.
   json["bodies"][1]["mesh"]["points"]["at"][0][1] = 0.09;
   EXPECT_EQ(json_of({"simulate", scene(json), "-o", run_path("far")}, 0)["too_near"], nullptr);
@@ -132,6 +135,9 @@ TEST_F(Simulate, APointThatIsPinchedToNothingEndsTheRun) {
   EXPECT_LT(result["too_near"]["time"], 1);
   EXPECT_EQ(result["too_near"]["names"], "vertex point[0] and edge press[0]-press[1]");
   EXPECT_EQ(result["too_near"]["start"], nullptr);
+  const std::string told = run_noli({"simulate", scene(json), "-o", run_path("told")}).out;
+  EXPECT_NE(told.find("\nNext: raise \"stiffness\" or \"thickness\" in \"contact\" of "), std::string::npos) << told;
+  EXPECT_NE(told.find("; where scripts press things together, leave a gap.\n"), std::string::npos) << told;
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
   EXPECT_NE(run_noli({"verify", run_path("run")}).out.find(" s of 2 s (too near).\n"), std::string::npos);
 }

@@ -26,6 +26,16 @@ TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   EXPECT_EQ(resumed.exit_code, 1);
   EXPECT_NE(resumed.out.find("But the energy drifts: from 1e-12 J to "), std::string::npos) << resumed.out;
   EXPECT_EQ(json_of({"simulate", file, "-o", run_path("parts"), "--resume"}, 1)["energy"]["astray"], astray);
+  // `noli explain` names the steps as soon as the scene does not accept them.
+  EXPECT_NE(resumed.out.find("\nNext: remove \"allow_unstable\" from " + file + "; noli explain " + file +
+                             " then names any step that is too long.\n"),
+            std::string::npos)
+      << resumed.out;
+  Json strict = Json::parse(bytes_of(file));
+  strict.erase("allow_unstable");
+  const Process explained = run_noli({"explain", scene(strict)});
+  EXPECT_EQ(explained.exit_code, 3);
+  EXPECT_NE(explained.err.find("/steps/stretch: expected at most "), std::string::npos) << explained.err;
 }
 
 /// A sheet that oscillates in its plane.
@@ -51,6 +61,10 @@ TEST_F(Simulate, StepsThatAreTooLongForDampingAreUnstable) {
   const std::string file = scene(json);
   const Process explained = run_noli({"explain", file});
   EXPECT_NE(explained.out.find("times too long for its damping"), std::string::npos) << explained.out;
+  const std::string told = run_noli({"simulate", file, "-o", run_path("told")}).out;
+  EXPECT_NE(told.find("\nNext: noli explain " + file + " says where steps are too long for the damping, or resonate;"),
+            std::string::npos)
+      << told;
   const Json result = json_of({"simulate", file, "-o", run_path("run")}, 1);
   EXPECT_EQ(result["verdict"], "unstable");
   EXPECT_GT(result["energy"]["astray"]["there"], result["energy"]["astray"]["begin"]);

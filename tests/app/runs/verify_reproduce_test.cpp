@@ -32,6 +32,47 @@ TEST_F(Reproduce, ARunOfFramesSaysWhatToDo) {
   }
 }
 
+TEST_F(Reproduce, CheckOfARunOfFramesSaysWhatToDo) {
+  const std::string run = frames_of(beam(0.1)), way = "noli verify " + run + " --reproduce";
+  const Process process = run_noli({"check", run});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_TRUE(says(process.err, "the run recorded only frames; `" + way + "`")) << process.err;
+  EXPECT_EQ(run_noli({"verify", run, "--reproduce"}).exit_code, 0);
+  // With the proof of the same motion, recorded in full.
+  Json json = beam(0.1);
+  json["record"] = "full";
+  ASSERT_EQ(run_noli({"simulate", scene(json), "-o", run_path("full")}).exit_code, 0);
+  const Process other = run_noli({"check", run_path("full") + "/proof.blocks", run});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_TRUE(says(other.out, "Next: the run recorded only frames")) << other.out;
+}
+
+TEST_F(Reproduce, CheckOfARunWithoutAProofSaysHowToMakeOne) {
+  const std::string run = run_path("run"), proof = run_path("out.noli");
+  ASSERT_EQ(run_noli({"simulate", scene(hanging_sheet()), "-o", run, "--no-proof"}).exit_code, 0);
+  const Process process = run_noli({"check", run});
+  EXPECT_EQ(process.exit_code, 3);
+  EXPECT_TRUE(says(process.err, "`noli verify " + run + " --proof OUT.noli` makes one")) << process.err;
+  EXPECT_EQ(run_noli({"verify", run, "--proof", proof}).exit_code, 0);
+  EXPECT_EQ(run_noli({"check", proof, run}).exit_code, 0);
+}
+
+/// --proof is refused, and so is --reproduce without --no-check in shards.
+TEST_F(Reproduce, NothingSuggestsAProofThatIsRefused) {
+  const std::string run = frames_of(beam(0.1)), hint = "Next: record the run in full (\"record\": \"full\"";
+  const std::vector<std::string> verify = {"verify", run, "--reproduce"};
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--no-check"}, {"--min-distance", "1e-9"}}) {
+    std::vector<std::string> words = verify;
+    words.insert(words.end(), more.begin(), more.end());
+    const Process process = run_noli(words);
+    EXPECT_EQ(process.exit_code, 0) << process.err;
+    EXPECT_TRUE(says(process.out, hint)) << process.out;
+    EXPECT_FALSE(says(process.out, "--proof")) << process.out;
+    EXPECT_FALSE(says(process.out, "drop --no-check")) << process.out;
+  }
+}
+
 TEST_F(Reproduce, WindowsOfThePlaneAndOfSpaceAreVerifiedAgain) {
   for (const Json& json : {beam(0.1), hanging_sheet(), two_cloths()}) {
     const std::string run = frames_of(json, json.value("title", "beam"));
