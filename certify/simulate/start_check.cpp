@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "certify/simulate/model_facts.h"
 #include "certify/simulate/model_run.h"
 #include "integrator/scene/build_model.h"
@@ -18,6 +20,12 @@ std::string cell_name(const Mesh& mesh, std::size_t cell, const BodyNames& names
   cell -= mesh.faces.size();
   if (cell < mesh.edges.size()) return names.feature(mesh.edges[cell]);
   return names.feature({&mesh.points[cell - mesh.edges.size()], 1});
+}
+
+/// "1 pair of cells intersects", "3 pairs of cells intersect"; "" for none.
+std::string pairs_that(std::uint64_t n, const char* of, const std::string& verb) {
+  if (n == 0) return "";
+  return n == 1 ? fmt::format("1 pair of {} {}s", of, verb) : fmt::format("{} pairs of {} {}", n, of, verb);
 }
 
 template <int Dim>
@@ -54,8 +62,10 @@ std::string contact_at_start(const WindowVerifier& verifier, const Mesh& mesh, c
     pairs += fmt::format("{}{} intersects {}", pairs.empty() ? "" : ", ", cell_name(mesh, cells.first_cell, names),
                          cell_name(mesh, cells.second_cell, names));
   }
-  return fmt::format("{}; {} pair(s) of features meet, {} pair(s) of cells intersect; expected none", pairs,
-                     result.contact_count(), result.initial_intersections);
+  const std::string meet = pairs_that(result.contact_count(), "features", "meet");
+  const std::string intersect = pairs_that(result.initial_intersections, "cells", "intersect");
+  return fmt::format("{}; in all, {}{}{}; expected none", pairs, meet, meet.empty() || intersect.empty() ? "" : " and ",
+                     intersect);
 }
 
 std::string contact_at_start(const integrator::Scene& scene, const std::atomic<bool>* stop,

@@ -145,19 +145,33 @@ double falling_speed(const Model<double, Dim>& model) {
 }
 
 /// v, without its lower bound eta(1) / window.
+struct MeetingSpeed {
+  double start = 0, scripts = 0, fall = 0;
+
+  double sum() const { return start + scripts + fall; }
+
+  /// The greatest part, for messages.
+  const char* origin() const {
+    if (start >= scripts && start >= fall) return "the greatest speed at the start";
+    return scripts >= fall ? "the greatest speed of a script"
+                           : "the speed of a fall from the highest to the lowest vertex";
+  }
+};
+
 template <int Dim>
-double meeting_speed(const Model<double, Dim>& model) {
-  double start = 0, scripts = 0;
-  for (const Vec<double, Dim>& v : model.v) start = std::max(start, std::sqrt(v.squaredNorm()));
-  for (const auto& script : model.scripts) scripts = std::max(scripts, greatest_speed(script));
-  return start + scripts + falling_speed(model);
+MeetingSpeed meeting_speed(const Model<double, Dim>& model) {
+  MeetingSpeed speed;
+  for (const Vec<double, Dim>& v : model.v) speed.start = std::max(speed.start, std::sqrt(v.squaredNorm()));
+  for (const auto& script : model.scripts) speed.scripts = std::max(speed.scripts, greatest_speed(script));
+  speed.fall = falling_speed(model);
+  return speed;
 }
 
 /// The contact of one pair of bodies: values for the pair, or for all pairs, or defaults.
 class PairContact {
  public:
-  PairContact(const Scene& scene, const BodyPair& bodies, const Free& part, double speed)
-      : scene_(scene), part_(part), speed_(speed) {
+  PairContact(const Scene& scene, const BodyPair& bodies, const Free& part, const MeetingSpeed& speed)
+      : scene_(scene), part_(part), speed_(speed.sum()), speed_origin_(speed.origin()) {
     const std::vector<ContactPair>& pairs = scene.contact->pairs;
     const auto found = std::ranges::find(pairs, bodies, &ContactPair::bodies);
     if (found == pairs.end()) return;
@@ -170,7 +184,10 @@ class PairContact {
     m.thickness = thickness();
     m.stiffness = value(&ContactValues::stiffness).value_or(default_stiffness(m.thickness));
     if (!(m.stiffness > 0 && std::isfinite(m.stiffness))) {
-      at("stiffness").fail(fmt::format("expected a stiffness; the default, {} [N/m], cannot be used", m.stiffness));
+      at("stiffness")
+          .fail(fmt::format("no stiffness is given, and its default, {} [N/m], cannot be used: it is {}; expected a {} "
+                            "speed or mass, or a stiffness",
+                            m.stiffness, origin_of_stiffness(m), m.stiffness == 0 ? "greater" : "lower"));
     }
     m.step = step(m);
     m.restitution = value(&ContactValues::restitution).value_or(1);
@@ -213,16 +230,23 @@ class PairContact {
     return part_.greatest_mass * rate * rate;
   }
 
+  /// How a default stiffness is computed, for messages.
+  std::string origin_of_stiffness(const ContactMaterial& m) const {
+    constexpr double fastest = 1e154;  // the square of a greater speed is infinite
+    const bool by_speed = !(speed_ / m.thickness <= 1 / scene_.window), beyond = !(speed_ <= fastest);
+    const double speed = beyond ? fastest : speed_;
+    const std::string time = by_speed ? fmt::format("to cross a thickness of {:.6g} m at {}{:.6g} m/s, {}", m.thickness,
+                                                    beyond ? "more than " : "", speed, speed_origin_)
+                                      : "of a window";
+    return fmt::format("the greatest mass of a vertex, {:.6g} kg, over the square of the time, {:.6g} s, {}",
+                       part_.greatest_mass, by_speed ? m.thickness / speed : scene_.window, time);
+  }
+
   /// Explains a default stiffness, for messages.
   std::string stiffness_text(const ContactMaterial& m) const {
     if (value(&ContactValues::stiffness)) return "";
-    const bool by_speed = speed_ / m.thickness > 1 / scene_.window;
-    const std::string time =
-        by_speed ? fmt::format("to cross a thickness of {1:.6g} m at {0:.6g} m/s", speed_, m.thickness) : "of a window";
-    return fmt::format(
-        "; no stiffness is given, and its default, {:.6g} [N/m], is the greatest mass of a vertex, {:.6g} "
-        "kg, over the square of the time, {:.6g} s, {}",
-        m.stiffness, part_.greatest_mass, std::min(m.thickness / speed_, scene_.window), time);
+    return fmt::format("; no stiffness is given, and its default, {:.6g} [N/m], is {}", m.stiffness,
+                       origin_of_stiffness(m));
   }
 
   double step(const ContactMaterial& m) const {
@@ -255,6 +279,7 @@ class PairContact {
   std::size_t index_ = 0;
   Free part_;
   double speed_;
+  const char* speed_origin_;
 };
 
 /// Gives pairs their materials, and stores each different material once.
@@ -347,7 +372,7 @@ class Materials {
 
   const Scene& scene_;
   BuiltScene<Dim>& built_;
-  double speed_;
+  MeetingSpeed speed_;
   std::map<std::size_t, Bound> bounds_;  ///< by said_thickness()
 };
 

@@ -59,14 +59,14 @@ void add_body(const Scene& scene, std::size_t index, const BodyMesh& made, Built
 }
 
 /// A step that the scene gives, and the place of its field.
-struct Given {
+struct GivenStep {
   std::optional<double> step;
   std::optional<std::size_t> patch;
 };
 
 /// The step from the last patch that has one and contains the force's centre, or from the body.
-Given given_step(const Body& body, const Position& centre, std::optional<double> GivenSteps::*which) {
-  Given given{body.steps.*which, {}};
+GivenStep given_step(const Body& body, const Position& centre, std::optional<double> GivenSteps::*which) {
+  GivenStep given{body.steps.*which, {}};
   for (std::size_t p = 0; p < body.patches.size(); ++p) {
     const Patch& patch = body.patches[p];
     if (patch.steps.*which && contains(patch.box, centre)) given = {patch.steps.*which, p};
@@ -76,7 +76,8 @@ Given given_step(const Body& body, const Position& centre, std::optional<double>
 
 bool bends(ForceKind kind) { return kind == ForceKind::hinge || kind == ForceKind::turning; }
 
-[[noreturn]] void refuse_step(const Scene& scene, std::size_t body, const Given& given, ForceKind kind, double limit) {
+[[noreturn]] void refuse_step(const Scene& scene, std::size_t body, const GivenStep& given, ForceKind kind,
+                              double limit) {
   const Field at = field_of_body(scene, body);
   const Field steps = given.patch ? at["patches"][*given.patch]["steps"] : at["steps"];
   steps[bends(kind) ? "bend" : "stretch"].fail(
@@ -121,7 +122,7 @@ ForceList<F> with_steps(const Scene& scene, const Sourced<F>& sourced, const std
   for (std::size_t i = 0; i < limits.size(); ++i) {
     end_if_stopped();
     if (!(limits[i] * 0x1p50 > scene.duration)) refuse_stiffness(scene, origins[i].body, F::kind, limits[i]);
-    const Given given = given_step(scene.bodies[origins[i].body], origins[i].centre, which);
+    const GivenStep given = given_step(scene.bodies[origins[i].body], origins[i].centre, which);
     if (given.step > limits[i] && !scene.allow_unstable) refuse_step(scene, origins[i].body, given, F::kind, limits[i]);
     const double damping = list.forces[i].damping;
     BuiltBody& body = built[origins[i].body];

@@ -10,6 +10,7 @@
 #include "integrator/scene/pinch.h"
 #include "integrator/scene/predict.h"
 #include "integrator/scene/shapes/body_mesh.h"
+#include "integrator/scene/start_layers.h"
 #include "trajectory/cells.h"
 
 namespace noli::integrator {
@@ -125,6 +126,34 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
   }
 }
 
+/// Warns of values that change nothing, and of a duration that is not a whole number of windows.
+void warn_of_values(const Scene& scene, Explanation& e) {
+  const double end = windows_up_to(scene.duration, scene.window) * scene.window;
+  if (end > scene.duration * (1 + 1e-9)) {
+    e.warnings.push_back(fmt::format(
+        "\"duration\" {:.6g} is rounded up to {:.6g} s, because a run consists of whole windows of {:.6g} s "
+        "(\"window\")",
+        scene.duration, end, scene.window));
+  }
+  const auto warn_of_start = [&](const char* field, const Position& value, const BuiltBody& body) {
+    if (value == Position{} || body.pinned + body.scripted < body.vertices) return;
+    e.warnings.push_back(
+        fmt::format("\"{}\" of {} has no effect: all its vertices are pinned or scripted", field, body.name));
+  };
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    warn_of_start("velocity", scene.bodies[i].velocity, e.bodies[i]);
+    warn_of_start("spin", scene.bodies[i].spin, e.bodies[i]);
+  }
+  for (std::size_t k = 0; k < scene.scripts.size(); ++k) {
+    const auto* const path = std::get_if<ScriptPath>(&scene.scripts[k].motion);
+    const double begin = path ? path->times.front() : std::get<ScriptFrames>(scene.scripts[k].motion).from;
+    if (begin < end) continue;
+    e.warnings.push_back(fmt::format(
+        "/scripts/{} begins at {:.6g} s, but the duration ends at {:.6g} s: until then its vertices of {} rest", k,
+        begin, end, e.bodies[scene.scripts[k].body].name));
+  }
+}
+
 /// `most`: the most breakpoints of a window.
 void warn(const Scene& scene, std::size_t most, Explanation& e) {
   if (scene.allow_unstable)
@@ -163,6 +192,32 @@ void warn_of_pinches(const BuiltScene<Dim>& built, double duration, Explanation&
                     "gap of 0, for which no number of layers is enough",
                     built.bodies[pinch.bodies[0]].name, built.bodies[pinch.bodies[1]].name, pinch.time));
   }
+}
+
+/// Warns of bodies that layers of contact push apart from the first moment.
+template <int Dim>
+void warn_of_start_pushes(const BuiltScene<Dim>& built, Explanation& e) {
+  constexpr std::size_t most = 3;
+  const std::vector<StartPush> pushes = find_start_pushes(built);
+  double rest = 0;
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    const StartPush& push = pushes[i];
+    if (i >= most) {
+      rest += push.energy;
+      continue;
+    }
+    const std::string &a = built.bodies[push.bodies[0]].name, &b = built.bodies[push.bodies[1]].name;
+    e.warnings.push_back(
+        fmt::format("{} begin {:.3g} m apart, inside layer {} of contact: they push each other apart with {}{:.3g} J; "
+                    "layers begin at {:.3g} m (\"thickness\")",
+                    a == b ? "parts of " + a : fmt::format("{} and {}", a, b), push.gap, push.layer,
+                    push.at_least ? "at least " : "", push.energy, push.thickness));
+  }
+  if (pushes.size() <= most) return;
+  const std::size_t more = pushes.size() - most;
+  e.warnings.push_back(
+      fmt::format("layers of contact also push the bodies of {} more pair{} apart, with {:.3g} J in all", more,
+                  more == 1 ? "" : "s", rest));
 }
 
 /// Warns of bodies whose cells only the scene moves.
@@ -236,8 +291,12 @@ void explain(const Scene& scene, Explanation& explanation) {
   BuiltScene<Dim> built = build_model<Dim>(scene);
   add_contact(built, explanation);
   warn_of_what_is_not_compared(built, explanation);
-  if (built.model.contact) warn_of_pinches(built, scene.duration, explanation);
+  if (built.model.contact) {
+    warn_of_start_pushes(built, explanation);
+    warn_of_pinches(built, scene.duration, explanation);
+  }
   explanation.bodies = std::move(built.bodies);
+  warn_of_values(scene, explanation);
   Survey survey(scene, explanation);
   survey_forces(built.model.forces, survey);
   survey.run();

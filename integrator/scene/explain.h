@@ -10,8 +10,9 @@
 // step give it up to two or three directions of oscillation; along each of these, the forces of every longer step are
 // the slow ones.
 //
-// Contact is not predicted: its layers fire as long as features are near. Neither is the run time. Everything is
-// computed from the start positions.
+// Contact is not predicted: its layers fire as long as features are near. Only the layers that act at the start are
+// known (integrator/scene/start_layers.h). Neither is the run time predicted. Everything is computed from the start
+// positions.
 #pragma once
 
 #include <array>

@@ -2,14 +2,24 @@
 #include "integrator/scene/read_body.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "integrator/scene/json_text.h"
 
 namespace noli::integrator {
 namespace {
+
+void require_exactly_one(const Field& f, const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  std::ranges::copy_if(names, std::back_inserter(found), [&f](const std::string& name) { return f.has(name); });
+  if (found.size() == 1) return;
+  f.fail(fmt::format("expected exactly one of the fields \"{}\", found {}", fmt::join(names, "\", \""),
+                     found.empty() ? "none" : fmt::format("\"{}\"", fmt::join(found, "\" and \""))));
+}
 
 Box read_box(const Field& f) {
   const Box box{f[0].vector(), f[1].vector()};
@@ -93,9 +103,7 @@ ElasticMaterial read_elastic(const Field& f) {
 }
 
 SpringMaterial read_springs(const Field& f) {
-  if (f.has("mass_per_area") + f.has("mass_per_length") + f.has("mass_per_vertex") != 1) {
-    f.fail("expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", \"mass_per_vertex\"");
-  }
+  require_exactly_one(f, {"mass_per_area", "mass_per_length", "mass_per_vertex"});
   const auto mass = [&f](const char* name) { return f.number_if(name).value_or(0); };
   return {f["edge_stiffness"].number(),
           f["bending_stiffness"].number(),
@@ -285,7 +293,7 @@ ScriptedVertices read_script(const Field& f, const std::vector<Body>& bodies) {
   ScriptedVertices script;
   script.body = find_body(f["body"], bodies);
   script.vertices = read_selection(f["vertices"]);
-  if (f.has("path") == f.has("frames")) f.fail("expected exactly one of the fields \"path\", \"frames\"");
+  require_exactly_one(f, {"path", "frames"});
   if (f.has("path")) {
     script.motion = read_path(f["path"]);
   } else {

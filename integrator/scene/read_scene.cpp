@@ -2,8 +2,13 @@
 #include "integrator/scene/read_scene.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <noli/errors.h>
 #include "integrator/scene/read_body.h"
@@ -14,30 +19,63 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
-/// Whether a text is a JSON pointer to a field of an object, existing or new, or to an existing item of an array.
-bool is_place(const Json& document, const std::string& text) {
+bool is_there(const Json& document, const Pointer& place) {
   try {
-    const Pointer target(text);
-    if (target.empty()) return false;
-    if (document.contains(target)) return true;
-    const Pointer parent = target.parent_pointer();
-    return document.contains(parent) && document.at(parent).is_object();
+    return document.contains(place);
   } catch (const Json::exception&) {
-    return false;  // not a pointer, or an index that is too large
+    return false;  // an index that is too large
   }
 }
 
-/// Applies the overrides of the short form.
-void apply_short(Json& document, const std::string& file) {
-  const Json overrides = document.is_object() ? document.value("short", Json()) : Json();
-  if (!overrides.is_object()) return;  // the schema will report it
-  for (const auto& item : overrides.items()) {
-    if (!is_place(document, item.key())) {
-      throw InputError(file, (Pointer("/short") / item.key()).to_string(),
-                       "expected a JSON pointer to a place in this file, such as \"/duration\" or \"/bodies/0/mesh\"");
-    }
-    document[Pointer(item.key())] = item.value();
+/// Why a document has no such place; "" if the place is a field of an object, existing or new, or an existing item of
+/// an array.
+std::string lack_of(const Json& document, const Pointer& place) {
+  if (is_there(document, place)) return "";
+  Pointer owner = place.parent_pointer();
+  std::string name = place.back();
+  const bool only_last = is_there(document, owner);
+  for (; !is_there(document, owner); owner.pop_back()) name = owner.back();
+  const Json& there = document.at(owner);
+  if (there.is_array()) {
+    return fmt::format("{} has {} item{}, counted from 0", owner.to_string(), there.size(),
+                       there.size() == 1 ? "" : "s");
   }
+  if (!there.is_object()) return owner.to_string() + " is neither an object nor an array";
+  if (only_last) return "";
+  std::vector<std::string> known;
+  for (const auto& item : there.items()) known.push_back(item.key());
+  const std::optional<std::string> near = nearest(name, known);
+  return fmt::format("there is no {}{}", (owner / name).to_string(),
+                     near ? "; the nearest is " + (owner / *near).to_string() : "");
+}
+
+/// A JSON pointer to some place below the root; nothing if the text is none.
+std::optional<Pointer> pointer_of(const std::string& text) {
+  try {
+    const Pointer pointer(text);
+    if (!pointer.empty()) return pointer;
+  } catch (const Json::exception&) {  // the text has no slash at its beginning, or a wrong escape
+  }
+  return std::nullopt;
+}
+
+/// The document of the short form. Precondition: "short" is an object.
+Json short_form(Json document, const std::string& file) {
+  const Json overrides = document.at("short");
+  for (const auto& item : overrides.items()) {
+    const std::string found = Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::optional<Pointer> place = pointer_of(item.key());
+    if (!place) {
+      throw InputError(file, "/short",
+                       "expected a JSON pointer to a place in this file, such as \"/duration\" or "
+                       "\"/bodies/0/mesh\", found " +
+                           found);
+    }
+    const std::string lack = lack_of(document, *place);
+    if (!lack.empty()) throw InputError(file, "/short", fmt::format("{} is not a place in this file: {}", found, lack));
+    document[*place] = item.value();
+  }
+  return document;
 }
 
 /// Default vectors have three numbers; a scene of dimension 2 takes two of them.
@@ -177,19 +215,15 @@ void refuse_results(const Json& document, const std::string& file) {
   throw InputError(file, "", fmt::format("is a result ({}); expected a scene; `noli report` shows results", schema));
 }
 
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form) {
+/// `name`: of the file and, for the short form, of its place in it.
+Scene scene_of(const Json& document, const std::filesystem::path& path, const std::string& name) {
   static const Json schema = parse_json(scene_schema_text(), "schemas/scene.json");
-  Json document = parse_json(text, path.string());
-  refuse_results(document, path.string());
-  if (form == Form::brief) apply_short(document, path.string());
-  Validated validated = validate(schema, document, path.string());
+  Validated validated = validate(schema, document, name);
   Scene scene;
   scene.path = path;
   scene.document = std::move(validated.document);
   scene.defaults = std::move(validated.defaults);
-  const Field f(scene.document, path.string());
+  const Field f(scene.document, name);
   scene.dimension = f.dimension();
   if (scene.dimension == 2) cut_default_vectors(scene);
   read_run(scene, f);
@@ -198,6 +232,17 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form
   for (const Field& script : f["scripts"].items()) scene.scripts.push_back(read_script(script, scene.bodies));
   if (f.has("contact")) scene.contact = read_contact(f["contact"], scene);
   return scene;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& path, Form form) {
+  const Json document = parse_json(text, path.string());
+  refuse_results(document, path.string());
+  Scene full = scene_of(document, path, path.string());
+  if (!has_short_form(full)) return full;
+  Scene brief = scene_of(short_form(document, path.string()), path, path.string() + ": /short");
+  return form == Form::brief ? brief : full;
 }
 
 Scene read_scene(const std::filesystem::path& path, Form form) {

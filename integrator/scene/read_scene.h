@@ -18,7 +18,8 @@ namespace noli::integrator {
 /// A scene has a full form, and a short one, in which the fields under "short" replace those of the full form.
 enum class Form : std::uint8_t { full, brief };
 
-/// Reads a scene file, but not the meshes and frames that it names. Throws InputError.
+/// Reads a scene file, but not the meshes and frames that it names. Checks both forms, whichever is asked for. Errors
+/// of the short form begin with "FILE: /short: ". Throws InputError.
 Scene read_scene(const std::filesystem::path& path, Form form = Form::full);
 
 /// The same for a text in memory; errors name `path`, and relative paths begin at its folder.

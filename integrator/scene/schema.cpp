@@ -185,7 +185,7 @@ class Validator {
     if (!schema.contains("properties")) return;  // any members are allowed
     const Json& properties = schema["properties"];
     for (const auto& item : value.items()) {
-      if (!properties.contains(item.key())) fail_unknown(properties, item.key(), at);
+      if (!properties.contains(item.key())) fail_unknown(schema, item.key(), at);
     }
     for (const auto& name : schema.value("required", std::vector<std::string>{})) {
       if (!value.contains(name))
@@ -203,14 +203,17 @@ class Validator {
     if (object.contains(name)) check(property, object[name], at / name);
   }
 
-  [[noreturn]] void fail_unknown(const Json& properties, const std::string& name, const Json::json_pointer& at) const {
-    const std::vector<std::string> known = keys(properties);
+  /// `schema`: of the object at this place; if it is an alternative, the first field that it requires decided so.
+  [[noreturn]] void fail_unknown(const Json& schema, const std::string& name, const Json::json_pointer& at) const {
+    const std::vector<std::string> known = keys(schema["properties"]);
     if (const auto near = nearest(name, known)) {
       fail(at / name, fmt::format("unknown field; the nearest known one is {}", Json(*near).dump()));
     }
     const std::string owner = owner_of(root_, "the scene", name, 0);
     if (!at.empty() && owner == Json(at.back()).dump()) {
-      fail(at / name, "cannot be combined with the other fields of " + owner);
+      const bool decided = schema.contains("required");
+      fail(at / name,
+           "cannot be combined with " + (decided ? schema["required"][0].dump() : "the other fields of " + owner));
     }
     if (!owner.empty()) fail(at / name, fmt::format("unknown field here; it belongs to {}", owner));
     fail(at / name, "unknown field; " + nearest_or_all(name, known));

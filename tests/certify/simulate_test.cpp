@@ -132,7 +132,7 @@ TEST_F(SimulateInProcess, TellsOfTheSceneBeforeItBegins) {
   };
   asked.keep_going = [&](const SeriesRow&) { return began = true; };
   run_simulate(asked);
-  asked.scene = folder.write("short.json", std::string(resting_bar).insert(1, R"("short": {"duration": 0.02}, )"));
+  asked.scene = folder.write("short.json", std::string(resting_bar).insert(1, R"("short": {"/duration": 0.02}, )"));
   asked.run = folder / "short";
   began = false;
   run_simulate(asked);

@@ -367,6 +367,29 @@ TEST(SceneContact, ADefaultStiffnessThatCannotBeUsedSaysWhereItIsFrom) {
   }
 }
 
+TEST(SceneContact, ADefaultStiffnessBeyondTheRangeOfDoubleSaysWhereItIsFrom) {
+  const auto expect_refused = [](const Json& scene, const std::string& expected) {
+    try {
+      settings(scene);
+      ADD_FAILURE() << "not refused";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "s.json: /contact/stiffness: no stiffness is given, and its default, " + expected);
+    }
+  };
+  const Json scene = sheets(R"({"thickness": 0.01})"_json);
+  expect_refused(
+      changed(scene, "/bodies/0/velocity", {1e200, 0, 0}),
+      "inf [N/m], cannot be used: it is the greatest mass of a vertex, 3.33333 kg, over the square of the time, 1e-156 "
+      "s, to cross a thickness of 0.01 m at more than 1e+154 m/s, the greatest speed at the start; expected a lower "
+      "speed or mass, or a stiffness");
+  expect_refused(
+      changed(scene, "/scripts",
+              R"([{"body": "high", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 1, "move": [0, 0, 1e153]}]}])"_json),
+      "inf [N/m], cannot be used: it is the greatest mass of a vertex, 3.33333 kg, over the square of the time, 1e-155 "
+      "s, to cross a thickness of 0.01 m at 1e+153 m/s, the greatest speed of a script; expected a lower speed or "
+      "mass, or a stiffness");
+}
+
 TEST(SceneContact, TheEdgesOfWhatIsAllowed) {
   const Json contact = R"({"stability": 0.5, "restitution": 0, "friction": 0, "most_layers": 1,
       "layers": {"thickness_exponent": 1.25, "stiffness_exponent": 1.5, "step_exponent": 1.5}})"_json;

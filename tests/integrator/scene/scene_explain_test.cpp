@@ -191,6 +191,53 @@ TEST(Explain, WarnsOfWindowsThatAreTooLongAndOfStepsThatAreCut) {
                   "steps above the limit of stability are accepted (\"allow_unstable\")"));
 }
 
+TEST(Explain, NotesADurationThatIsNotAWholeNumberOfWindows) {
+  const auto rounded = [](double duration, double window) {
+    const Explanation e = explained(changed(changed(sheet(), "/duration", duration), "/window", window));
+    const auto note = std::ranges::find_if(e.warnings, [](auto& w) { return w.starts_with("\"duration\" "); });
+    return note == e.warnings.end() ? "" : *note;
+  };
+  EXPECT_EQ(rounded(0.1, 1),
+            "\"duration\" 0.1 is rounded up to 1 s, because a run consists of whole windows of 1 s (\"window\")");
+  EXPECT_EQ(rounded(2.5, 1),
+            "\"duration\" 2.5 is rounded up to 3 s, because a run consists of whole windows of 1 s (\"window\")");
+  EXPECT_EQ(rounded(1, 1), "");
+  EXPECT_EQ(rounded(0.07, 0.01), "") << "0.07 / 0.01 > 7, but only by rounding";
+}
+
+TEST(Explain, NotesMotionsAtTheStartThatHaveNoEffect) {
+  Json scene = sheet();
+  scene["bodies"][0]["velocity"] = {1, 0, 0};
+  scene["bodies"][0]["spin"] = {0, 0, 1};
+  scene["bodies"][0]["pin"] = {"left"};
+  const auto idle = [&scene](const std::string& field) {
+    return has(explained(scene).warnings,
+               "\"" + field + "\" of body0 has no effect: all its vertices are pinned or scripted");
+  };
+  EXPECT_FALSE(idle("velocity"));
+  EXPECT_FALSE(idle("spin"));
+  scene["scripts"] =
+      R"([{"body": "body0", "vertices": [1, 2, 4, 5, 7, 8], "path": [{"t": 0, "move": [0, 0, 0]}]}])"_json;
+  EXPECT_TRUE(idle("velocity"));
+  EXPECT_TRUE(idle("spin"));
+  scene["bodies"][0].erase("velocity");
+  EXPECT_FALSE(idle("velocity"));
+}
+
+TEST(Explain, NotesScriptsThatBeginAfterTheDuration) {
+  Json scene = changed(changed(sheet(), "/duration", 0.1), "/window", 1);
+  const auto late = [&scene](double begin) {
+    scene["scripts"] =
+        R"([{"body": "body0", "path": [{"t": 0, "move": [0, 0, 0]}, {"t": 6, "move": [0, 0, 1]}]}])"_json;
+    scene["scripts"][0]["path"][0]["t"] = begin;
+    return has(explained(scene).warnings,
+               "/scripts/0 begins at 5 s, but the duration ends at 1 s: until then its vertices of body0 rest");
+  };
+  EXPECT_TRUE(late(5));
+  EXPECT_FALSE(late(0.5)) << "the last window goes up to 1 s";
+  EXPECT_FALSE(late(0));
+}
+
 /// A mass of 1 kg between a stiff spring, of frequency 1, and a soft one, with individual steps: the resonance of
 /// integrator/resonance.h.
 Json two_springs(double soft, double fast_step, double slow_step) {

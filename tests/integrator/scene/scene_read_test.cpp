@@ -108,10 +108,14 @@ INSTANTIATE_TEST_SUITE_P(
             "/bodies/0/material: expected one of the fields \"young\", \"edge_stiffness\", found [\"density\"]"},
         Bad{"/bodies/0/material", "{\"edge_stiffness\": 5}",
             "/bodies/0/material: expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", "
-            "\"mass_per_vertex\""},
+            "\"mass_per_vertex\", found none"},
         Bad{"/bodies/0/material", R"({"edge_stiffness": 5, "mass_per_area": 1, "mass_per_vertex": 1})",
             "/bodies/0/material: expected exactly one of the fields \"mass_per_area\", \"mass_per_length\", "
-            "\"mass_per_vertex\""},
+            "\"mass_per_vertex\", found \"mass_per_area\" and \"mass_per_vertex\""},
+        Bad{"/bodies/0/material", R"({"edge_stiffness": 5, "mass_per_area": 1, "density": 1})",
+            "/bodies/0/material/density: cannot be combined with \"edge_stiffness\""},
+        Bad{"/bodies/0/material/mass_per_area", "1",
+            "/bodies/0/material/mass_per_area: cannot be combined with \"young\""},
         Bad{"/bodies/0/material", R"({"edge_stiffness": 5, "mass_per_vertex": -1})",
             "/bodies/0/material/mass_per_vertex: expected a number greater than 0 [kg], found -1"},
         Bad{"/window", "0", "/window: expected a number greater than 0 [s], found 0"},
@@ -168,7 +172,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"/scripts", "[{\"body\": \"bdy0\", \"path\": [{\"t\": 0, \"move\": [0,0,0]}]}]",
             "/scripts/0/body: no body has the name \"bdy0\"; the nearest is \"body0\""},
         Bad{"/scripts", "[{\"body\": \"body0\"}]",
-            "/scripts/0: expected exactly one of the fields \"path\", \"frames\""},
+            "/scripts/0: expected exactly one of the fields \"path\", \"frames\", found none"},
+        Bad{"/scripts",
+            R"([{"body": "body0", "path": [{"t": 0, "move": [0,0,0]}], "frames": {"files": ["a.ply"], "rate": 1}}])",
+            "/scripts/0: expected exactly one of the fields \"path\", \"frames\", found \"path\" and \"frames\""},
         Bad{"/scripts", R"([{"body": "body0", "path": [{"t": 1, "move": [0,0,0]}, {"t": 1, "move": [0,0,1]}]}])",
             "/scripts/0/path/1/t: expected a time after the one before it, 1 [s], found 1"},
         Bad{"/scripts", R"([{"body": "body0", "path": [{"t": -1, "move": [0,0,0]}]}])",
@@ -242,25 +249,54 @@ TEST(ShortForm, PutsItsValuesInPlace) {
   EXPECT_EQ(brief.bodies[0].name, "cloth");
 }
 
-TEST(ShortForm, PlacesMustBeThere) {
-  const std::string expected =
-      ": expected a JSON pointer to a place in this file, such as \"/duration\" or \"/bodies/0/mesh\"";
-  for (const char* pointer :
-       {"duration", "/bodies/1", "/bodies/99999999999", "/bodies/-", "/bodies/00/mesh", "/no/such", "", "/~2"}) {
-    Json scene = sheet();
-    scene["short"] = {{pointer, 1}};
-    const Json::json_pointer place = Json::json_pointer("/short") / pointer;
-    EXPECT_EQ(problem_of(scene, Form::brief), "s.json: " + place.to_string() + expected);
-    EXPECT_EQ(problem_of(scene), "") << "nobody asked for the short form";
+/// The error of both forms when the short form sets this place to 1.
+std::string problem_of_short(const std::string& place) {
+  Json scene = sheet();
+  scene["short"] = {{place, 1}};
+  const std::string problem = problem_of(scene);
+  EXPECT_EQ(problem_of(scene, Form::brief), problem);
+  return problem;
+}
+
+TEST(ShortForm, PlacesMustBeThereEvenIfNobodyAsksForIt) {
+  for (const auto& [place, what] : std::map<std::string, std::string>{
+           {"/bodies/1", "/bodies has 1 item, counted from 0"},
+           {"/bodies/7/name", "/bodies has 1 item, counted from 0"},
+           {"/bodies/99999999999999999999", "/bodies has 1 item, counted from 0"},
+           {"/bodies/-", "/bodies has 1 item, counted from 0"},
+           {"/bodies/00/mesh", "/bodies has 1 item, counted from 0"},
+           {"/bodies/0/mesh/grid/cells/2", "/bodies/0/mesh/grid/cells has 2 items, counted from 0"},
+           {"/no/such", "there is no /no"},
+           {"/bodie/0/name", "there is no /bodie; the nearest is /bodies"},
+           {"/bodies/0/mehs/grid", "there is no /bodies/0/mehs; the nearest is /bodies/0/mesh"},
+           {"/duration/0", "/duration is neither an object nor an array"}}) {
+    EXPECT_EQ(problem_of_short(place), "s.json: /short: \"" + place + "\" is not a place in this file: " + what);
+  }
+  for (const std::string text : {"duration", "", "/~2"}) {
+    EXPECT_EQ(problem_of_short(text),
+              "s.json: /short: expected a JSON pointer to a place in this file, such as \"/duration\" or "
+              "\"/bodies/0/mesh\", found \"" +
+                  text + "\"");
   }
 }
 
-TEST(ShortForm, ItsValuesAreCheckedToo) {
-  Json scene = sheet();
-  scene["short"] = {{"/duration", -1}};
-  EXPECT_EQ(problem_of(scene, Form::brief), "s.json: /duration: expected a number greater than 0 [s], found -1");
-  scene["short"] = 5;
+TEST(ShortForm, ItsValuesAreCheckedEvenIfNobodyAsksForIt) {
+  EXPECT_EQ(problem_of_short("/duratoin"),
+            "s.json: /short: /duratoin: unknown field; the nearest known one is \"duration\"");
+  EXPECT_EQ(problem_of_short("/bodies/0/name"), "s.json: /short: /bodies/0/name: expected a string, found 1");
+  EXPECT_EQ(problem_of_short("/gravity_step"),
+            "s.json: /short: /gravity_step: expected at most the window, 0.01 [s], found 1");
+  Json scene = changed(sheet(), "/short", 5);
+  EXPECT_EQ(problem_of(scene), "s.json: /short: expected an object, found 5");
   EXPECT_EQ(problem_of(scene, Form::brief), "s.json: /short: expected an object, found 5");
+}
+
+TEST(ShortForm, ErrorsOfTheFullFormAreNotThoseOfTheShortForm) {
+  Json scene = changed(sheet(), "/duration", -1);
+  scene["short"] = {{"/duration", 1}};
+  for (const Form form : {Form::full, Form::brief}) {
+    EXPECT_EQ(problem_of(scene, form), "s.json: /duration: expected a number greater than 0 [s], found -1");
+  }
 }
 
 /// Calls visit(pointer, value) for all values that are neither objects nor arrays.
