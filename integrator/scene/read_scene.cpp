@@ -49,7 +49,7 @@ std::string lack_of(const Json& document, const Pointer& place) {
                      near ? "; the nearest is " + (owner / *near).to_string() : "");
 }
 
-/// A JSON pointer to some place below the root; nothing if the text is none.
+/// The place that a JSON pointer names. Nothing if the text is not a JSON pointer, or names the root.
 std::optional<Pointer> pointer_of(const std::string& text) {
   try {
     const Pointer pointer(text);
