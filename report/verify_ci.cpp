@@ -83,6 +83,11 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
 
+/// What the cases do not say: how much of a run there is, what was not compared.
+std::string property(const char* key, const std::string& value) {
+  return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escaped_markup(value));
+}
+
 /// Of a message; of a property also the two characters that end it.
 std::string escaped(const std::string& text, bool property) {
   std::string out;
@@ -112,8 +117,10 @@ std::string verify_junit(const VerifyRequest& request, const VerifyOutcome& outc
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"noli verify\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}  </testsuite>\n</testsuites>\n",
-      count, failures, skipped, cases);
+      "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n    <properties>\n{}{}    </properties>\n{}  "
+      "</testsuite>\n</testsuites>\n",
+      count, failures, skipped, property("verdict", name(outcome.verdict)),
+      property("answer", place_of(request, outcome)), cases);
 }
 
 std::string verify_annotations(const VerifyRequest& request, const VerifyOutcome& outcome) {

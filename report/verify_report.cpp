@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 
 #include <noli/errors.h>
@@ -86,8 +87,16 @@ Json run_json(const RunEnding& ending) {
           {"duration", or_null(ending.duration)}};
 }
 
+/// Of a run: how far it went, and how far it was to go.
+void add_ending(const RunEnding& ending, Answer& answer) {
+  answer.add({"run.end", ending.why.value_or("none")});
+  answer.add({"run.time", digits17(ending.time)});
+  answer.add({"run.duration", ending.duration ? digits17(*ending.duration) : "none"});
+  answer.add({"run.windows_total", ending.windows_total ? std::to_string(*ending.windows_total) : "none"});
+}
+
 /// For machines.
-void add_pairs(const VerifyOutcome& outcome, Answer& answer) {
+void add_pairs(const VerifyRequest& request, const VerifyOutcome& outcome, Answer& answer) {
   for (const FeaturePair pair : all_feature_pairs) {
     answer.add({fmt::format("contacts.{}", name(pair)), outcome.contacts[static_cast<std::size_t>(pair)]});
   }
@@ -97,6 +106,8 @@ void add_pairs(const VerifyOutcome& outcome, Answer& answer) {
   answer.add({"steps_total", outcome.steps_total});
   answer.add({"faces", outcome.faces});
   answer.add({"complete", outcome.complete});
+  answer.add({"excluded", statement_json(request, outcome)["excluded"].size()});
+  if (outcome.ending) add_ending(*outcome.ending, answer);
 }
 
 }  // namespace
@@ -154,7 +165,7 @@ Json verify_json(const VerifyRequest& request, const VerifyOutcome& outcome) {
 
 Answer verify_answer(const VerifyRequest& request, const VerifyOutcome& outcome, TextOptions wanted) {
   Answer answer(name(outcome.verdict));
-  add_pairs(outcome, answer);
+  add_pairs(request, outcome, answer);
   put_text(request, outcome, std::move(wanted), answer);
   return answer;
 }

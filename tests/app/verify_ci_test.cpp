@@ -84,6 +84,19 @@ TEST_F(ForIntegration, JunitFailsWhereContactGoesOn) {
   EXPECT_EQ(count(xml, "still meet as this one begins"), 2U) << xml;
 }
 
+TEST_F(ForIntegration, JunitAndPairsTellWhatWasNotCompared) {
+  const std::string groups =
+      folder.write("groups.json", R"({"groups": {"a": [0], "b": [[3, 5]]}, "ignore": [["a", "b"]]})");
+  const auto property = [](const std::string& xml) { return xml.substr(0, xml.find("</properties>")); };
+  const std::string part = property(junit({1, -1}, {"--ignore", groups}));
+  EXPECT_NE(part.find("<property name=\"verdict\" value=\"proved\"/>"), std::string::npos) << part;
+  EXPECT_NE(part.find("nothing that is compared touches"), std::string::npos) << part;
+  EXPECT_NE(property(junit({1, 0.5})).find("1 step: nothing touches ("), std::string::npos);
+  const std::string pairs = run_noli(verify({1, -1}, {"--ignore", groups, "--porcelain"})).out;
+  EXPECT_NE(pairs.find(" excluded=1\n"), std::string::npos) << pairs;
+  EXPECT_NE(run_noli(verify({1, 0.5}, {"--porcelain"})).out.find(" excluded=0\n"), std::string::npos);
+}
+
 TEST_F(ForIntegration, AnnotationsNameEachStepAndEndWithTheVerdict) {
   const Process contact = run_noli(verify({1, 0.5, -1}, {"--github"}));
   EXPECT_TRUE(contact.out.starts_with("::error title=noli%3A step 2 (b <&>.ply → c <&>.ply)::3 pairs of features meet"))

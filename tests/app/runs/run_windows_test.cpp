@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/runs/simulate_fixture.h"
+#include "tests/support/temporary_folder.h"
 #include "trajectory/blocks/run_file.h"
 
 namespace noli::app_tests {
@@ -100,8 +101,20 @@ TEST_F(Simulate, VerifyKnowsHowManyWindowsTheSceneAsksFor) {
   EXPECT_EQ(part["steps"], 5);
   EXPECT_EQ(part["steps_total"], 5);
   EXPECT_EQ(part["run"]["windows_total"], 25);
+  const auto pairs_and_junit = [&] {
+    const std::string junit = run_path("noli.xml");
+    const std::string pairs = run_noli({"verify", run, "--porcelain", "--junit", junit, "--force"}).out;
+    return std::pair(pairs, test::read_text(junit));
+  };
+  const auto [pairs, junit] = pairs_and_junit();
+  EXPECT_TRUE(contains(pairs, " run.time=0.05 run.duration=0.25 run.windows_total=25\n")) << pairs;
+  EXPECT_TRUE(contains(junit, "<property name=\"answer\" value=\"5 of 25 windows, 0.05 of 0.25 s: ")) << junit;
   ASSERT_EQ(run_noli({"simulate", file, "-o", run, "--resume"}).exit_code, 0);
   EXPECT_EQ(json_of({"verify", run}, 0)["steps"], 25);
+  const auto [whole_pairs, whole_junit] = pairs_and_junit();
+  EXPECT_TRUE(contains(whole_pairs, " run.end=done run.time=0.25 run.duration=0.25 run.windows_total=25\n"))
+      << whole_pairs;
+  EXPECT_TRUE(contains(whole_junit, "<property name=\"answer\" value=\"25 windows, 0.25 s: ")) << whole_junit;
   fs::remove(run_path("run/scene.json"));
   EXPECT_EQ(json_of({"verify", run}, 0)["run"]["windows_total"], nullptr);
 }
