@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <noli/errors.h>
@@ -84,7 +85,7 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
 }
 
 /// What the cases do not say: how much of a run there is, what was not compared.
-std::string property(const char* key, const std::string& value) {
+std::string property(const char* key, std::string_view value) {
   return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escaped_markup(value));
 }
 
