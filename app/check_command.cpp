@@ -147,10 +147,10 @@ std::string way_without_proof(const fs::path& run) {
 
 /// Reads no more of a run than where its windows end. It is for a hint only, so it never fails.
 report::RunState state_of_run(const fs::path& run) {
-  if (is_locked(run)) return report::RunState::being_written;
   try {
     RunReader reader(run);
     if (reader.header().record == RecordMode::frames) return report::RunState::only_frames;
+    if (is_locked(run)) return report::RunState::being_written;
     while (!stop_asked() && reader.skip_window()) continue;
     if (!stop_asked() && reader.open_window()) return report::RunState::open_window;
   } catch (const std::exception&) {

@@ -19,8 +19,8 @@ set(NOLI_SANITIZE_WITHOUT "" CACHE STRING "Checks of these sanitizers to leave o
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
-# Decided by the first configuration: with a compiler cache that is installed later (by the set-up of scripts/test, after scripts/demo), each
-# command would differ, and all be compiled again.
+# Decided by the first configuration: with a compiler cache that is installed later (by the set-up of scripts/test, after scripts/demo), every
+# compile command would change, and everything would be compiled again.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(NOLI_CCACHE ccache NO_CACHE)
   if(NOT NOLI_CCACHE)

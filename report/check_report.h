@@ -15,7 +15,7 @@
 
 namespace noli::report {
 
-/// Of a run, why no proof of it may be accepted as it is now.
+/// Why a checker may accept no proof of a run in its present state.
 enum class RunState { complete, only_frames, open_window, being_written };
 
 /// What a checker said of a proof, and what it was asked.

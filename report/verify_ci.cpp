@@ -84,7 +84,7 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
 
-/// What the cases do not say: how much of a run there is, what was not compared.
+/// Of all cases together.
 std::string property(const char* key, std::string_view value) {
   return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escaped_markup(value));
 }

@@ -274,13 +274,15 @@ class VerifyText {
       "record the run in full (\"record\": \"full\" in its scene) for a proof that anybody can check.";
 
   std::string after_no_contact() const {
-    if (outcome_.only_frames) return record_in_full;
-    return request_.check ? "" : "drop --no-check to have the proof checked.";
+    if (request_.check) return "";
+    return outcome_.only_frames ? "without --no-check, and without shards, the proof is checked."
+                                : "drop --no-check to have the proof checked.";
   }
 
   std::string after_proof() const {
     if (request_.proof) return "";
     if (outcome_.only_frames) return record_in_full;
+    if (outcome_.open_window) return "resume the run first (--resume) for a proof that anybody can check.";
     std::error_code error;
     if (request_.run && std::filesystem::exists(proof_path(request_.frames[0]), error)) {
       return shell_words({"noli", "check", request_.frames[0].string()}) + " checks the proof that is in the run.";

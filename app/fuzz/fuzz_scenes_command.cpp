@@ -49,11 +49,11 @@ ExitCode fuzz(ScenesArguments& arguments) {
 ExitCode replay(const ScenesArguments& arguments) {
   const fs::path file = arguments.replay.saved();
   const Output output(arguments.common.results, {file});
-  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   if (arguments.wrong_place && arguments.replay.minimise)
     throw UsageError("--wrong-place: a scene that is wrong somewhere is not minimised; use it with --replay");
   if (arguments.wrong_place && !arguments.wrong_place->starts_with('/'))
     throw UsageError("--wrong-place " + *arguments.wrong_place + ": expected a place of a scene, as in /bodies/0/mesh");
+  if (arguments.replay.minimise) require_writable_folder(arguments.common.out, "--out");
   const audit::GeneratedScene given{audit::read_saved_scene(file), arguments.wrong_place};
   const auto [scene, judgement] =
       audit::replay_scene(given, arguments.replay.minimise.has_value(), audit::noli_as_subject(interrupted()));

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include <noli/errors.h>
 #include "audit/numerics/replay.h"
 #include "audit/numerics/sampled_run.h"
 #include "kernel/parallel.h"
@@ -67,6 +68,8 @@ class Audit {
       if (!engine_.run_window(log_, books_, stop)) return false;
     } catch (const integrator::ContactLimit&) {
       return end("a pair of features needs more layers of contact than allowed");
+    } catch (const noli::Stopped&) {  // in the search for what is near
+      return false;
     }
     if (!finite()) return end("a number is not finite");
     const State state = integrator::Ledger<double, Dim>(engine_).state();

@@ -99,7 +99,9 @@ Ranks::Ranks(std::unique_ptr<Library> library) : library_(std::move(library)) {
   if (result == 1) {
     throw UsageError("not all ranks run the same program; expected one version and commit of Noli on all machines");
   }
-  if (result == 3) throw UsageError("this MPI was built without threads; expected one with MPI_THREAD_SERIALIZED");
+  if (result == 3) {
+    throw UsageError("this MPI lets only one thread call it; expected one with MPI_THREAD_SERIALIZED");
+  }
   require(result);
   if (place.size != ranks_in_environment()) {
     throw UsageError(fmt::format("MPI has {} ranks, the environment {}: noli_mpi.so was built for another MPI",

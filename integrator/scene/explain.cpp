@@ -129,7 +129,7 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
 /// Warns of values that change nothing, and of a duration that is not a whole number of windows.
 void warn_of_values(const Scene& scene, Explanation& e) {
   const double end = windows_up_to(scene.duration, scene.window) * scene.window;
-  if (end > scene.duration * (1 + 1e-9)) {
+  if (end > scene.duration * (1 + 1e-6)) {  // or the text would show twice the same
     e.warnings.push_back(fmt::format(
         "\"duration\" {:.6g} is rounded up to {:.6g} s, because a run consists of whole windows of {:.6g} s "
         "(\"window\")",
@@ -148,9 +148,9 @@ void warn_of_values(const Scene& scene, Explanation& e) {
     const auto* const path = std::get_if<ScriptPath>(&scene.scripts[k].motion);
     const double begin = path ? path->times.front() : std::get<ScriptFrames>(scene.scripts[k].motion).from;
     if (begin < end) continue;
-    e.warnings.push_back(fmt::format(
-        "/scripts/{} begins at {:.6g} s, but the duration ends at {:.6g} s: until then its vertices of {} rest", k,
-        begin, end, e.bodies[scene.scripts[k].body].name));
+    e.warnings.push_back(
+        fmt::format("/scripts/{} begins at {:.6g} s, but the duration ends at {:.6g} s: the script moves nothing of {}",
+                    k, begin, end, e.bodies[scene.scripts[k].body].name));
   }
 }
 
@@ -200,10 +200,12 @@ void warn_of_start_pushes(const BuiltScene<Dim>& built, Explanation& e) {
   constexpr std::size_t most = 3;
   const std::vector<StartPush> pushes = find_start_pushes(built);
   double rest = 0;
+  bool at_least = false;
   for (std::size_t i = 0; i < pushes.size(); ++i) {
     const StartPush& push = pushes[i];
     if (i >= most) {
       rest += push.energy;
+      at_least |= push.at_least;
       continue;
     }
     const std::string &a = built.bodies[push.bodies[0]].name, &b = built.bodies[push.bodies[1]].name;
@@ -216,8 +218,8 @@ void warn_of_start_pushes(const BuiltScene<Dim>& built, Explanation& e) {
   if (pushes.size() <= most) return;
   const std::size_t more = pushes.size() - most;
   e.warnings.push_back(
-      fmt::format("layers of contact also push the bodies of {} more pair{} apart, with {:.3g} J in all", more,
-                  more == 1 ? "" : "s", rest));
+      fmt::format("layers of contact also push the bodies of {} more pair{} apart, with {}{:.3g} J in all", more,
+                  more == 1 ? "" : "s", at_least ? "at least " : "", rest));
 }
 
 /// Warns of bodies whose cells only the scene moves.

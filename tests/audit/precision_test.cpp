@@ -11,6 +11,7 @@
 #include "integrator/scene/build_model.h"
 #include "integrator/scene/read_scene.h"
 #include "integrator/simulation.h"
+#include "trajectory/stop.h"
 
 namespace noli::audit {
 namespace {
@@ -256,6 +257,21 @@ TEST(PrecisionAudit, StopsWhenToldTo) {
   const PrecisionOutcome outcome = audit_precision(model, request);
   EXPECT_EQ(outcome.windows, 0U);
   EXPECT_FALSE(outcome.complete);
+}
+
+/// Within a window only the search for what is near hears such a stop. Windows that were run to their end stay.
+TEST(PrecisionAudit, KeepsItsWindowsWhereASearchIsStopped) {
+  const auto model = integrator::build_model<2>(discs()).model;
+  std::atomic<bool> stop = false;
+  const StopOfThread heard(stop);
+  PrecisionRequest request;
+  request.windows = 20;
+  request.progress = [&](double /*share*/) { stop = true; };
+  const PrecisionOutcome outcome = audit_precision(model, request);
+  EXPECT_GE(outcome.windows, 1U);
+  EXPECT_LT(outcome.windows, 20U);
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.runs.front().drifts.size(), outcome.windows);
 }
 
 TEST(PrecisionAudit, RefusesPrecisionsThatAreNone) {

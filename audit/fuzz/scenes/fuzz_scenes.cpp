@@ -264,7 +264,7 @@ SceneJudgement judge_scene(const GeneratedScene& scene, const RunNoli& noli) { r
 ReplayedScene replay_scene(GeneratedScene scene, bool smaller, const RunNoli& noli) {
   const auto judge = [&](const SceneJson& candidate) { return judge_scene({candidate, scene.wrong_place}, noli); };
   SceneJudgement judgement = judge(scene.scene);
-  if (judgement.difference && smaller && can_shrink(scene)) {
+  if (judgement.difference && smaller) {
     const std::string kind(kind_of(*judgement.difference));
     scene.scene = minimise(
         scene.scene, [&](const SceneJson& candidate) { return is_of_kind(judge(candidate).difference, kind); }, 1000);

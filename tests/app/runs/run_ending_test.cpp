@@ -82,6 +82,7 @@ TEST_F(Simulate, CheckSaysThatARunWhichEndsWithinAWindowHasToBeResumed) {
   const std::string committed = blocks("run"), longer = blocks("longer");
   ASSERT_TRUE(longer.starts_with(committed) && longer.size() > committed.size() + 200);
   std::ofstream(run + "/trajectory.blocks", std::ios::binary) << longer.substr(0, committed.size() + 200);
+  EXPECT_EQ(next_of(run_noli({"verify", run})), "resume the run first (--resume) for a proof that anybody can check.");
   EXPECT_EQ(run_noli({"verify", run, "--proof", run_path("proof.noli")}).exit_code, 0);
   for (const std::vector<std::string>& check :
        {std::vector<std::string>{"check", run}, {"check", run_path("proof.noli"), run}}) {
@@ -101,7 +102,7 @@ TEST_F(Simulate, CheckSaysThatARunWhichEndsWithinAWindowHasToBeResumed) {
 TEST_F(Simulate, TheNextStepOfAStoppedRunGoesOnWithWhatWasAskedFor) {
   const std::string file = scene(resting_bar(1, 0.5)), run = run_path("run");
   const Process stopped = run_noli(
-      {"simulate", file, "-o", run, "--until", "1e6", "--past-duration", "--ignore-space", "--time-limit", "500ms"});
+      {"simulate", file, "-o", run, "--until", "1e6", "--past-duration", "--ignore-space", "--time-limit", "1s"});
   ASSERT_EQ(stopped.exit_code, 2) << stopped.err;
   EXPECT_EQ(next_of(stopped),
             "noli simulate " + file + " -o " + run + " --until 1000000 --past-duration --ignore-space --resume");
@@ -110,7 +111,7 @@ TEST_F(Simulate, TheNextStepOfAStoppedRunGoesOnWithWhatWasAskedFor) {
   for (std::string word; line >> word;) words.push_back(word);
   ASSERT_FALSE(words.empty());
   words.erase(words.begin());
-  words.insert(words.end(), {"--time-limit", "2s"});
+  words.insert(words.end(), {"--time-limit", "5s"});
   const Process resumed = run_noli(words);
   EXPECT_EQ(resumed.exit_code, 2) << resumed.out << resumed.err;
   EXPECT_EQ(next_of(resumed), next_of(stopped));

@@ -118,6 +118,7 @@ TEST(StartLayers, WhenThereAreTooManyTheEnergyIsALeastOne) {
   const std::vector<std::string> notes = notes_on_start(scene);
   ASSERT_EQ(notes.size(), 4u);
   EXPECT_NE(notes[0].find("they push each other apart with at least "), std::string::npos) << notes[0];
+  EXPECT_NE(notes[3].find("7 more pairs apart, with at least "), std::string::npos) << notes[3];
 }
 
 }  // namespace
