@@ -90,8 +90,8 @@ Json run_json(const RunEnding& ending) {
 /// Of a run: how far it went, and how far it was to go.
 void add_ending(const RunEnding& ending, Answer& answer) {
   answer.add({"run.end", ending.why.value_or("none")});
-  answer.add({"run.time", digits17(ending.time)});
-  answer.add({"run.duration", ending.duration ? digits17(*ending.duration) : "none"});
+  answer.add({"run.time", ending.time});
+  answer.add({"run.duration", ending.duration ? fmt::format("{}", *ending.duration) : "none"});
   answer.add({"run.windows_total", ending.windows_total ? std::to_string(*ending.windows_total) : "none"});
 }
 

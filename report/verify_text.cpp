@@ -274,7 +274,7 @@ class VerifyText {
       "record the run in full (\"record\": \"full\" in its scene) for a proof that anybody can check.";
 
   std::string after_no_contact() const {
-    if (request_.check) return "";
+    if (request_.check) return outcome_.only_frames ? record_in_full : "";
     return outcome_.only_frames ? "without --no-check, and without shards, the proof is checked."
                                 : "drop --no-check to have the proof checked.";
   }

@@ -86,7 +86,7 @@ TEST_F(ForIntegration, JunitFailsWhereContactGoesOn) {
 
 TEST_F(ForIntegration, JunitAndPairsTellWhatWasNotCompared) {
   const std::string groups =
-      folder.write("groups.json", R"({"groups": {"a": [0], "b": [[3, 5]]}, "ignore": [["a", "b"]]})");
+      folder.write("groups.json", R"({"groups": {"a": [[0, 2]], "b": [[3, 5]]}, "ignore": [["a", "b"]]})");
   const auto property = [](const std::string& xml) { return xml.substr(0, xml.find("</properties>")); };
   const std::string part = property(junit({1, -1}, {"--ignore", groups}));
   EXPECT_NE(part.find("<property name=\"verdict\" value=\"proved\"/>"), std::string::npos) << part;
