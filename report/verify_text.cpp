@@ -282,7 +282,6 @@ class VerifyText {
   std::string after_proof() const {
     if (request_.proof) return "";
     if (outcome_.only_frames) return record_in_full;
-    if (outcome_.open_window) return "resume the run first (--resume) for a proof that anybody can check.";
     std::error_code error;
     if (request_.run && std::filesystem::exists(proof_path(request_.frames[0]), error)) {
       return shell_words({"noli", "check", request_.frames[0].string()}) + " checks the proof that is in the run.";
