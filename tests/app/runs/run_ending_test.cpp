@@ -82,7 +82,8 @@ TEST_F(Simulate, CheckSaysThatARunWhichEndsWithinAWindowHasToBeResumed) {
   const std::string committed = blocks("run"), longer = blocks("longer");
   ASSERT_TRUE(longer.starts_with(committed) && longer.size() > committed.size() + 200);
   std::ofstream(run + "/trajectory.blocks", std::ios::binary) << longer.substr(0, committed.size() + 200);
-  EXPECT_TRUE(says(run, "resume it first (noli simulate ... --resume)"));
+  EXPECT_TRUE(says(
+      run, "The proof was not checked: the run ends within a window; resume it first (noli simulate ... --resume)."));
   EXPECT_EQ(run_noli({"verify", run, "--proof", run_path("proof.noli")}).exit_code, 0);
   for (const std::vector<std::string>& check :
        {std::vector<std::string>{"check", run}, {"check", run_path("proof.noli"), run}}) {
