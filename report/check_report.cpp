@@ -96,6 +96,7 @@ Answer check_answer(const Checked& checked) {
   const std::string rest = verdict.words.substr(std::min(line.size() + 1, verdict.words.size()));
   const auto claim = verdict.code == 3 ? std::nullopt : claim_of_words(verdict.words);
   std::vector<std::string> members = {"checker=checker/name", "version=checker/version"};
+  if (claim) members.insert(members.end(), {"excluded=claim/excluded", "empty=claim/empty"});
   if (claim && claim->part) {
     members.insert(members.end(), {"first=claim/part/first", "last=claim/part/last", "proof=claim/part/proof"});
   }

@@ -294,7 +294,7 @@ Json simulate_json(const SimulateRequest& request, const SimulateOutcome& outcom
 }
 
 Answer simulate_answer(const Json& json, const SimulateRequest& request, const SimulateOutcome& outcome) {
-  Answer answer(json, {"end", "windows", "windows_total", "time", "first_time"});
+  Answer answer(json, {"end", "windows", "windows_total", "time", "first_time", "excluded", "scripted_or_pinned"});
   answer.place = place(outcome);
   answer.next = next_step(request, outcome);
   std::string& text = answer.text;

@@ -89,6 +89,10 @@ std::string property(const char* key, std::string_view value) {
   return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escaped_markup(value));
 }
 
+std::string run_end(const VerifyOutcome& outcome) {
+  return outcome.ending ? property("run.end", outcome.ending->why.value_or("none")) : "";
+}
+
 /// Of a message; of a property also the two characters that end it.
 std::string escaped(const std::string& text, bool property) {
   std::string out;
@@ -121,7 +125,7 @@ std::string verify_junit(const VerifyRequest& request, const VerifyOutcome& outc
       "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n    <properties>\n{}{}    </properties>\n{}  "
       "</testsuite>\n</testsuites>\n",
       count, failures, skipped, property("verdict", name(outcome.verdict)),
-      property("answer", place_of(request, outcome)), cases);
+      property("answer", place_of(request, outcome)) + run_end(outcome), cases);
 }
 
 std::string verify_annotations(const VerifyRequest& request, const VerifyOutcome& outcome) {

@@ -30,7 +30,12 @@ namespace {
 /// Rows that leave room for the verdict on a screen of 24 lines.
 constexpr std::size_t most_rows = 5, most_intersections = 3;
 
-/// Why a run has not come to the end of its scene.
+/// Whether a run ends as its scene asks for.
+bool ended_well(const RunEnding& ending) {
+  return ending.whole() && !ending.going_on && ending.why.value_or("done") == "done";
+}
+
+/// Why a run has not come to the end that was asked for.
 std::string why_ended(const RunEnding& ending) {
   if (ending.being_written) return "it is being written";
   if (ending.going_on) return "it may still be going on, or was killed";
@@ -208,9 +213,9 @@ class VerifyText {
   }
 
   void ending() {
-    if (!outcome_.ending || outcome_.ending->whole()) return;
+    if (!outcome_.ending || ended_well(*outcome_.ending)) return;
     const RunEnding& ending = *outcome_.ending;
-    const std::string of = ending.duration ? fmt::format(" of {} s", *ending.duration) : "";
+    const std::string of = ending.duration && !ending.whole() ? fmt::format(" of {} s", *ending.duration) : "";
     line("The run ends at {} s{} ({}).", ending.time, of, why_ended(ending));
   }
 

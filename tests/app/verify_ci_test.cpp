@@ -93,8 +93,8 @@ TEST_F(ForIntegration, JunitAndPairsTellWhatWasNotCompared) {
   EXPECT_NE(part.find("nothing that is compared touches"), std::string::npos) << part;
   EXPECT_NE(property(junit({1, 0.5})).find("1 step: nothing touches ("), std::string::npos);
   const std::string pairs = run_noli(verify({1, -1}, {"--ignore", groups, "--porcelain"})).out;
-  EXPECT_NE(pairs.find(" excluded=1\n"), std::string::npos) << pairs;
-  EXPECT_NE(run_noli(verify({1, 0.5}, {"--porcelain"})).out.find(" excluded=0\n"), std::string::npos);
+  EXPECT_NE(pairs.find(" excluded=1 empty=true\n"), std::string::npos) << pairs;
+  EXPECT_NE(run_noli(verify({1, 0.5}, {"--porcelain"})).out.find(" excluded=0 empty=false\n"), std::string::npos);
 }
 
 TEST_F(ForIntegration, AnnotationsNameEachStepAndEndWithTheVerdict) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/app/runs/simulate_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noli::app_tests {
 namespace {
@@ -21,6 +22,10 @@ TEST_F(Simulate, EnergyThatGrowsWithoutEndIsSaidAtTheEnd) {
   EXPECT_GT(astray["there"], 100 * astray["begin"].get<double>());
   // All windows are committed and verified, and a run that was stopped halfway says the same.
   EXPECT_EQ(json_of({"verify", run_path("run")}, 0)["verdict"], "proved");
+  const std::string verified = run_noli({"verify", run_path("run"), "--junit", run_path("noli.xml")}).out;
+  EXPECT_NE(verified.find(" s (no more was requested; its energy drifts).\n"), std::string::npos) << verified;
+  EXPECT_NE(test::read_text(run_path("noli.xml")).find("<property name=\"run.end\" value=\"unstable\"/>"),
+            std::string::npos);
   run_noli({"simulate", file, "-o", run_path("parts"), "--until", "54"});
   const Process resumed = run_noli({"simulate", file, "-o", run_path("parts"), "--resume"});
   EXPECT_EQ(resumed.exit_code, 1);
