@@ -84,7 +84,7 @@ std::string case_of(const VerifyRequest& request, const VerifyOutcome& outcome, 
   return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head, escaped_markup(why));
 }
 
-/// Of all cases together.
+/// A property of all cases together.
 std::string property(const char* key, std::string_view value) {
   return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escaped_markup(value));
 }

@@ -3,9 +3,8 @@
 // Finds bodies that begin inside layers of contact, which push them apart from the first moment, and the energy that
 // these layers store.
 //
-// The sum of all energies is that of Simulation::contact_at_start(), up to rounding, where none is only
-// a least one. certify/simulate/start_check.h
-// decides whether anything touches.
+// The sum of all energies is that of Simulation::contact_at_start(), up to rounding, or less where one is a least one.
+// certify/simulate/start_check.h decides whether anything touches.
 #pragma once
 
 #include <array>
