@@ -22,7 +22,9 @@ class InRanks : public Shards {
                            {"NO_COLOR", ""},
                            {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-                           {"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
+                           {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                           // Two jobs that begin at once both make the folder of this machine, and one fails.
+                           {"OMPI_MCA_orte_tmpdir_base", folder.path("mpi")}};
     std::string command = before + "exec " NOLI_MPIRUN " -n " + std::to_string(ranks) + " " NOLI_COMMAND;
     for (const std::string& word : words) command += " '" + word + "'";
     return run_noli({"-c", command}, options);
