@@ -107,7 +107,7 @@ void add_pairs(const VerifyRequest& request, const VerifyOutcome& outcome, Answe
   answer.add({"faces", outcome.faces});
   answer.add({"complete", outcome.complete});
   answer.add({"excluded", statement_json(request, outcome)["excluded"].size()});
-  answer.add({"empty", outcome.claim.empty});
+  answer.add({"empty", outcome.claim.cells.empty() ? "none" : outcome.claim.empty ? "true" : "false"});
   if (outcome.ending) add_ending(*outcome.ending, answer);
 }
 

@@ -279,7 +279,8 @@ class VerifyText {
       "record the run in full (\"record\": \"full\" in its scene) for a proof that anybody can check.";
 
   std::string after_no_contact() const {
-    if (request_.check) return outcome_.only_frames ? record_in_full : "";
+    if (outcome_.only_frames && (request_.check || request_.min_distance > 0)) return record_in_full;
+    if (request_.check) return "";
     return outcome_.only_frames ? "without --no-check, and without shards, the proof is checked."
                                 : "drop --no-check to have the proof checked.";
   }

@@ -129,7 +129,7 @@ void add_contact(const BuiltScene<Dim>& built, Explanation& e) {
 /// Warns of values that change nothing, and of a duration that is not a whole number of windows.
 void warn_of_values(const Scene& scene, Explanation& e) {
   const double end = windows_up_to(scene.duration, scene.window) * scene.window;
-  if (end > scene.duration * (1 + 1e-6)) {  // or the text would show twice the same
+  if (end > scene.duration * (1 + 1e-6)) {  // less would not show in six digits
     e.warnings.push_back(fmt::format(
         "\"duration\" {:.6g} is rounded up to {:.6g} s, because a run consists of whole windows of {:.6g} s "
         "(\"window\")",

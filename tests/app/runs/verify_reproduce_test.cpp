@@ -64,7 +64,8 @@ TEST_F(Reproduce, NothingSuggestsAProofThatIsRefused) {
   const std::vector<std::string> verify = {"verify", run, "--reproduce"};
   for (const auto& [more, hint] : {std::pair<std::vector<std::string>, std::string>{{}, full},
                                    {{"--no-check"}, checked},
-                                   {{"--min-distance", "1e-9"}, full}}) {
+                                   {{"--min-distance", "1e-9"}, full},
+                                   {{"--no-check", "--min-distance", "1e-9"}, full}}) {
     std::vector<std::string> words = verify;
     words.insert(words.end(), more.begin(), more.end());
     const Process process = run_noli(words);
