@@ -9,6 +9,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -62,6 +63,24 @@ inline std::optional<StopReason> stop_asked() noexcept {
   return (asked & static_cast<std::uint8_t>(StopReason::interrupted)) != 0 ? StopReason::interrupted
                                                                            : StopReason::out_of_time;
 }
+
+/// What stops a piece of work that several threads do: each of them may ask.
+class StopOfWork {
+ public:
+  /// Made by the thread that begins the work, whose StopOfThread counts too. `stop`: another request; nullptr: none.
+  StopOfWork(const std::atomic<bool>* stop, std::optional<std::chrono::steady_clock::time_point> deadline) noexcept
+      : stop_(stop), of_thread_(stop_of_thread()), deadline_(deadline) {}
+
+  bool is_asked() const noexcept {
+    const auto is_set = [](const std::atomic<bool>* flag) { return flag && flag->load(std::memory_order_relaxed); };
+    if (stop_asked() || is_set(stop_) || is_set(of_thread_)) return true;
+    return deadline_ && std::chrono::steady_clock::now() >= *deadline_;
+  }
+
+ private:
+  const std::atomic<bool>*stop_, *of_thread_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+};
 
 /// Throws Stopped, without a place, when the process or the work of this thread was asked to stop.
 inline void end_if_stopped() {

@@ -103,8 +103,8 @@ ExitCode exit_code(Verdict verdict) {
 }
 
 ExitCode answer(VerifyWork& request, const VerdictOutputs& outputs, const Output& output) {
-  ProofRoute route(request);
   request.stop = &interrupted();
+  ProofRoute route(request);
   std::optional<ProgressBars> bars(std::in_place);
   const bool told = !request.run && request.frames.size() > 2 && request.reading.bodies.empty() &&
                     std::ranges::all_of(request.frames, is_frame_name);

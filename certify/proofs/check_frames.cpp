@@ -81,7 +81,7 @@ class Giving {
 };
 
 std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frames) {
-  TrajectoryPipe pipe(std::nullopt);
+  TrajectoryPipe pipe(StopOfWork(request.stop, request.deadline));
   request.trajectory = {pipe.path()};
   Giving giving(frames, pipe, request.stop);
   request.stop = giving.failed();

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
@@ -68,16 +66,14 @@ std::vector<std::string> CheckerProcess::command(const CheckRequest& request) {
 
 CheckerProcess::CheckerProcess(const CheckRequest& request)
     : checker_(request.checker),
-      stop_(request.stop),
-      stop_of_thread_(stop_of_thread()),
-      deadline_(request.deadline),
+      stop_(request.stop, request.deadline),
       proof_(request.proof),
       progress_(request.progress),
       limits_{.time = no_limit,
               .stop =
                   [this] {
                     tell_progress();
-                    return stopped();
+                    return stop_.is_asked();
                   },
               .to_end = {}},
       child_(command(request),
@@ -88,15 +84,8 @@ void CheckerProcess::tell_progress() const {
   if (const auto share = child_.share_read(*proof_)) progress_(*share);
 }
 
-bool CheckerProcess::stopped() const {
-  if (stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_)) return true;
-  return std::ranges::any_of(std::array{stop_, stop_of_thread_}, [](const std::atomic<bool>* stop) {
-    return stop != nullptr && stop->load(std::memory_order_relaxed);
-  });
-}
-
 void CheckerProcess::write(std::string_view bytes) {
-  if (stopped()) cut_ = true;
+  if (stop_.is_asked()) cut_ = true;
   if (cut_) return;
   const Child::Written written = child_.write(bytes, limits_);
   cut_ = written == Child::Written::stopped;

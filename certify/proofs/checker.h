@@ -17,6 +17,7 @@
 #include <noli/proof.h>
 #include "certify/process/child.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 
@@ -47,13 +48,11 @@ class CheckerProcess {
 
  private:
   static std::vector<std::string> command(const CheckRequest& request);
-  bool stopped() const;
   void tell_progress() const;
   void end_early();
 
   Checker checker_;
-  const std::atomic<bool>*stop_, *stop_of_thread_;  ///< the second: of the thread that started it
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  StopOfWork stop_;
   std::optional<std::filesystem::path> proof_;
   std::function<void(double)> progress_;
   ProgramLimits limits_;

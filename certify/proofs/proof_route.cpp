@@ -74,7 +74,7 @@ class BothSinks : public Sink {
 
 ProofRoute::ProofRoute(VerifyWork& request) : request_(request) {
   if ((request.lines_in_no_file || frames_are_streamed()) && request.check && request.min_distance == 0) {
-    request.trajectory_pipe = &pipe_.emplace(request.deadline);
+    request.trajectory_pipe = &pipe_.emplace(StopOfWork(request.stop, request.deadline));
   }
   can_check_ = request.check && (pipe_.has_value() || can_be_read_again());
   file_ = request.proof;
@@ -155,8 +155,12 @@ std::optional<CheckerVerdict> ProofRoute::verdict_on(const Claim& claim) {
     if (pipe_) pipe_->close();
     return checker_->finish();
   }
-  const CheckRequest request{
-      .proof = file_, .trajectory = trajectory(), .asked = fields_of(claim), .checkers = request_.threads};
+  const CheckRequest request{.proof = file_,
+                             .trajectory = trajectory(),
+                             .asked = fields_of(claim),
+                             .stop = request_.stop,
+                             .deadline = request_.deadline,
+                             .checkers = request_.threads};
   if (frames_are_streamed()) return check_frames(request, *open_all_frames(request_.frames, request_.reading));
   return checked(request);
 }

@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "certify/process/child.h"
-#include "trajectory/stop.h"
 
 namespace noli {
 namespace {
@@ -34,8 +33,7 @@ class TrajectoryPipe::End : public Sink {
   TrajectoryPipe& pipe_;
 };
 
-TrajectoryPipe::TrajectoryPipe(std::optional<std::chrono::steady_clock::time_point> deadline)
-    : deadline_(deadline), path_(folder_.path() / "trajectory.blocks") {
+TrajectoryPipe::TrajectoryPipe(const StopOfWork& stop) : stop_(stop), path_(folder_.path() / "trajectory.blocks") {
   if (::mkfifo(path_.c_str(), S_IRUSR | S_IWUSR) != 0) {
     throw std::system_error(errno, std::generic_category(), path_.string());
   }
@@ -91,11 +89,7 @@ bool TrajectoryPipe::is_over() const {
 
 bool TrajectoryPipe::given_up() const {
   const std::lock_guard lock(mutex_);
-  return abandoned_ || is_stopped();
-}
-
-bool TrajectoryPipe::is_stopped() const {
-  return stop_asked() || (deadline_ && std::chrono::steady_clock::now() >= *deadline_);
+  return abandoned_ || stop_.is_asked();
 }
 
 /// Whether somebody has waited too long for the checker to read. Before anybody waits it may not have been started.
@@ -143,7 +137,7 @@ void TrajectoryPipe::work() {
     if (waiting_.empty()) changed_.notify_all();
   }
   over_ = true;
-  unopened_ = !end && !abandoned_ && !is_stopped();
+  unopened_ = !end && !abandoned_ && !stop_.is_asked();
   waiting_.clear();
   lock.unlock();
   if (end) ::close(*end);

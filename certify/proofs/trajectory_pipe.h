@@ -20,14 +20,14 @@
 
 #include "certify/process/scratch_folder.h"
 #include "trajectory/blocks/block_sink.h"
+#include "trajectory/stop.h"
 
 namespace noli {
 
 class TrajectoryPipe {
  public:
-  /// A named pipe in a folder of its own, which vanishes with this. Gives up at the deadline, or when the user asks to
-  /// stop. Throws std::system_error.
-  explicit TrajectoryPipe(std::optional<std::chrono::steady_clock::time_point> deadline);
+  /// A named pipe in a folder of its own, which vanishes with this. Gives up after a stop. Throws std::system_error.
+  explicit TrajectoryPipe(const StopOfWork& stop);
   ~TrajectoryPipe();
   TrajectoryPipe(const TrajectoryPipe&) = delete;
   TrajectoryPipe& operator=(const TrajectoryPipe&) = delete;
@@ -37,8 +37,8 @@ class TrajectoryPipe {
   /// For a RunWriter or FramesWriter, which this has to outlive.
   std::unique_ptr<Sink> sink();
 
-  /// Waits until the checker has read all that was written. Throws std::runtime_error when it does not open the pipe
-  /// within a minute. Returns at once if the checker has ended; writing the proof then reports that.
+  /// Waits until the checker has read all that was written, or until a stop. Throws std::runtime_error when it does not
+  /// open the pipe within a minute. Returns at once if the checker has ended; writing the proof then reports that.
   void drained();
   /// The same, then ends the stream.
   void close();
@@ -53,12 +53,11 @@ class TrajectoryPipe {
   void put(std::string_view bytes);
   void work();
   bool given_up() const;
-  bool is_stopped() const;
   bool waited_too_long() const;
   std::optional<int> open() const;
   bool write(int end, std::string_view bytes) const;
 
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  StopOfWork stop_;
   ScratchFolder folder_;
   std::filesystem::path path_;
   mutable std::mutex mutex_;
