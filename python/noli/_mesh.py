@@ -84,11 +84,15 @@ class CollisionMesh:
 
     def _drop_parts(self):
         """Leaves out edges and points that are parts of other cells, or listed before: they add nothing to compare."""
-        sides = np.sort(self.faces[:, [[0, 1], [1, 2], [0, 2]]].reshape(-1, 2), axis=1)
-        both = np.concatenate([sides, np.sort(self.edges, axis=1)])
-        _, first = np.unique(both, axis=0, return_index=True)
-        keep = np.sort(first[first >= len(sides)]) - len(sides)
-        self.edges = indices(self.edges[keep], 2, "edges")
+        if len(self.edges):
+            # Not np.unique(axis=0): it is slow, and turns a KeyboardInterrupt into a TypeError.
+            sides = np.sort(self.faces[:, [[0, 1], [1, 2], [0, 2]]].reshape(-1, 2), axis=1)
+            both = np.concatenate([sides, np.sort(self.edges, axis=1)])
+            order = np.lexsort(both.T)  # rows that are equal stay in order
+            rows = both[order]
+            first = order[np.append(True, np.any(rows[1:] != rows[:-1], axis=1))]
+            keep = np.sort(first[first >= len(sides)]) - len(sides)
+            self.edges = indices(self.edges[keep], 2, "edges")
         _, first = np.unique(self.points, return_index=True)
         points = self.points[np.sort(first)]
         self.points = indices(points[~np.isin(points, [*self.faces.ravel(), *self.edges.ravel()])], 1, "points")

@@ -81,7 +81,7 @@ TEST(TrajectoryPipe, HearsAStopOfTheThreadThatMadeIt) {
 }
 
 TEST(TrajectoryPipe, HearsADeadline) {
-  TrajectoryPipe pipe(StopOfWork(nullptr, std::chrono::steady_clock::now() + seconds(1)));
+  TrajectoryPipe pipe(StopOfWork(nullptr, std::chrono::steady_clock::now() + seconds(2)));
   EXPECT_TRUE(goes_on_after(pipe, [] {}));
 }
 
