@@ -64,7 +64,7 @@ inline std::optional<StopReason> stop_asked() noexcept {
                                                                            : StopReason::out_of_time;
 }
 
-/// What stops a piece of work that several threads do: each of them may ask.
+/// What stops a piece of work that several threads do, each of which may call is_asked(). The flags have to outlive it.
 class StopOfWork {
  public:
   /// Made by the thread that begins the work, whose StopOfThread counts too. `stop`: another request; nullptr: none.

@@ -36,14 +36,14 @@ void write_all(FrameSource& frames, std::unique_ptr<Sink> sink, const Before& be
 /// Gives frames to a checker that reads a pipe, in a thread of its own.
 class Giving {
  public:
-  /// `stop`: polled before each frame; nothing: nobody asks.
+  /// `stop`: ends reading the frames; nothing: nobody asks.
   Giving(FrameSource& frames, TrajectoryPipe& pipe, const std::atomic<bool>* stop)
       : pipe_(pipe), stop_(stop), thread_([this, &frames] { give(frames); }) {}
   ~Giving() { join(); }
   Giving(const Giving&) = delete;
   Giving& operator=(const Giving&) = delete;
 
-  /// Becomes true after a stop, or if nobody opens the checker's pipe any more, which then would wait without an end.
+  /// Becomes true if the checker has to end, because it would wait for frames without an end.
   const std::atomic<bool>* failed() const { return &failed_; }
   /// The checker may have ended without reading all frames, or any. What went wrong with them, if anything did.
   std::exception_ptr join() {
@@ -59,8 +59,7 @@ class Giving {
     try {
       write_all(frames, pipe_.sink(), [this] {
         pipe_.drained();
-        if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) failed_ = true;
-        return !pipe_.is_over() && !failed_;
+        return !pipe_.is_over();
       });
     } catch (...) {
       fault_ = std::current_exception();
@@ -84,7 +83,7 @@ std::optional<CheckerVerdict> on_a_pipe(CheckRequest request, FrameSource& frame
   TrajectoryPipe pipe(StopOfWork(request.stop, request.deadline));
   request.trajectory = {pipe.path()};
   Giving giving(frames, pipe, request.stop);
-  request.stop = giving.failed();
+  const StopOfThread ends_the_checker(giving.failed());
   CheckerProcess checker(request);
   const std::optional<CheckerVerdict> verdict = checker.finish();
   const std::exception_ptr fault = giving.join();

@@ -244,7 +244,7 @@ std::vector<std::string> words_of_parts(const CheckRequest& request, const std::
     std::erase_if(one.asked, [](const std::string& word) { return field_of(word) == "steps"; });
     one.asked.push_back("steps=" + steps_of_part(firsts, begin + i));
     one.progress = progress.of(i);
-    const StopOfThread others(not_accepted);
+    const StopOfThread after_another_part(not_accepted);
     try {
       const auto verdict = CheckerProcess(one).finish();
       if (verdict && verdict->code == 0) words[i] = verdict->words;

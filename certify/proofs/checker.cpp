@@ -113,12 +113,14 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
       const char* const why = end.code == SIGKILL ? ", perhaps out of memory" : "";
       throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), end.code, why));
   }
-  constexpr int machine_failed = 4;
+  // A motion on a pipe ends at a stop. What is refuted before its end stays refuted.
+  constexpr int refuted = 1, machine_failed = 4;
+  if (end.code != refuted && stop_.is_asked()) return std::nullopt;
   if (end.code == machine_failed) throw HelperError(fmt::format("{} {}", name_of(checker_), first_line(end.out)));
-  if (end.code != 0 && end.code != 1 && end.code != 3) {
+  if (end.code != 0 && end.code != refuted && end.code != 3) {
     throw std::runtime_error(fmt::format("{} ended with code {}; expected 0, 1 or 3", name_of(checker_), end.code));
   }
-  const char* const first = end.code == 0 ? "accepted: " : end.code == 1 ? "refuted: " : "rejected: ";
+  const char* const first = end.code == 0 ? "accepted: " : end.code == refuted ? "refuted: " : "rejected: ";
   if (!end.out.starts_with(first)) {
     throw std::runtime_error(fmt::format("{} ended with code {}, but does not say so", name_of(checker_), end.code));
   }

@@ -131,7 +131,11 @@ void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
   const bool whole = outcome.verdict == Verdict::no_contact || (refuted && outcome.witnesses > 0);
   if (!request_.check || outcome.not_checked || !whole) return;
   const Stopwatch watch;
-  const auto verdict = verdict_on(outcome.claim);
+  std::optional<CheckerVerdict> verdict;
+  try {
+    verdict = verdict_on(outcome.claim);
+  } catch (const Stopped&) {  // while frames were read again
+  }
   outcome.check_seconds = watch.seconds();
   if (!verdict) return stopped(outcome);
   outcome.checked = first_line(verdict->words);
@@ -196,7 +200,10 @@ std::unique_ptr<Sink> ProofRoute::to_file() const {
 }
 
 std::unique_ptr<Sink> ProofRoute::to_checker(const Claim& claim) {
-  if (!can_be_asked(claim)) return std::make_unique<NoSink>();
+  if (!can_be_asked(claim)) {
+    if (pipe_) pipe_->abandon();  // nobody will read it
+    return std::make_unique<NoSink>();
+  }
   const CheckRequest asked{
       .trajectory = trajectory(), .asked = fields_of(claim), .stop = request_.stop, .deadline = request_.deadline};
   const auto start = [this, asked]() -> CheckerProcess& { return checker_.emplace(asked); };

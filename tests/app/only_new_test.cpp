@@ -128,6 +128,13 @@ TEST_F(OnlyNew, TooManyPairsForACheckerAreDecidedAndNotChecked) {
   EXPECT_NE(process.out.find("more pairs of cells are left out than a checker can be asked about"), std::string::npos)
       << process.out;
   EXPECT_TRUE(process.verdict_line().starts_with("NO CONTACT  ")) << process.verdict_line();
+  fan(3);
+  // No checker reads these, so noli would give them to it.
+  const Process joined = run_noli({"verify", "--only-new", "--body", "fan=" + folder.path("fan_*.ply")});
+  EXPECT_EQ(joined.exit_code, 0) << joined.out << joined.err;
+  EXPECT_NE(joined.out.find("3 frames, 2 steps"), std::string::npos) << joined.out;
+  EXPECT_NE(joined.out.find("more pairs of cells are left out than a checker can be asked about"), std::string::npos)
+      << joined.out;
 }
 
 TEST_F(OnlyNew, WithoutAnyTheClaimIsTheUsualOne) {

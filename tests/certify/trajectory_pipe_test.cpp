@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests what a pipe to a checker does when the checker reads nothing.
+// Tests how long a writer waits for a checker that reads everything, or nothing.
 #include "certify/proofs/trajectory_pipe.h"
 
 #include <fcntl.h>
@@ -70,7 +70,6 @@ TEST(TrajectoryPipe, HearsAStop) {
   std::atomic<bool> stop = false;
   TrajectoryPipe pipe(StopOfWork(&stop, std::nullopt));
   EXPECT_TRUE(goes_on_after(pipe, [&] { stop = true; }));
-  EXPECT_TRUE(pipe.is_over());
 }
 
 TEST(TrajectoryPipe, HearsAStopOfTheThreadThatMadeIt) {
