@@ -42,8 +42,9 @@ class CheckerProcess {
   /// ProofRefused when the checker stops reading with a verdict, otherwise what finish() throws.
   void write(std::string_view bytes);
   /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(), unless the
-  /// checker has refuted something before: its verdict is then not about the whole proof and motion. Throws HelperError when the machine failed it (memory, a signal);
-  /// std::runtime_error when it ended with an unexpected exit code, or closed its output and stayed.
+  /// checker has refuted something before: its verdict is then not about the whole proof and motion. Throws HelperError
+  /// when the machine failed it (memory, a signal); std::runtime_error when it ended with an unexpected exit code, or
+  /// closed its output and stayed.
   std::optional<CheckerVerdict> finish();
 
  private:
