@@ -319,6 +319,26 @@ TEST_F(OtherChecker, ThatSaysNothingIsEndedAtTheLimit) {
   EXPECT_LT(seconds, soon);
 }
 
+/// A proof may be whole although its check was stopped, and not whole although it was begun.
+TEST_F(OtherChecker, ThatSaysNothingLeavesAWholeProof) {
+  const std::string proof = folder.path("proof.noli"), unfinished = "is not complete, and proves nothing";
+  std::vector<std::string> words = verify("300ms");
+  words.insert(words.end(), {"--proof", proof});
+  const Process whole = run_noli(words, with("exec sleep 60"));
+  EXPECT_EQ(whole.exit_code, 2) << whole.err;
+  EXPECT_NE(whole.out.find("was not checked: time limit"), std::string::npos) << whole.out;
+  EXPECT_EQ(whole.out.find(unfinished), std::string::npos) << whole.out;
+  EXPECT_EQ(run_noli({"check", proof, words[1], words[2]}).exit_code, 0);
+
+  ASSERT_EQ(::mkfifo(folder.path("c.ply").c_str(), 0600), 0);
+  words.insert(words.begin() + 3, folder.path("c.ply"));
+  words.emplace_back("--force");
+  const Process begun = run_noli(words);
+  EXPECT_EQ(begun.exit_code, 2) << begun.err;
+  EXPECT_NE(begun.out.find(unfinished), std::string::npos) << begun.out;
+  EXPECT_EQ(run_noli({"check", proof, words[1], words[2], folder.write("d.ply", two_triangles(3))}).exit_code, 3);
+}
+
 TEST_F(OtherChecker, ThatClosesItsOutputAndStaysIsEnded) {
   const std::string closes = "cat >/dev/null; exec >&- 2>&-; exec sleep 60";
   const auto [limited, seconds] = timed(verify("500ms"), with(closes));
