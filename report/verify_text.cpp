@@ -235,7 +235,7 @@ class VerifyText {
       line("No witness was found for {}: it proves nothing.", file);
     if (outcome_.verdict == Verdict::no_contact && !request_.check) line("The proof in {} was not checked.", file);
     if (!outcome_.proof_begun) line("No proof was written to {}.", file);
-    const bool whole = outcome_.check_seconds > 0;  // others are not checked
+    const bool whole = outcome_.check_seconds > 0;  // only a whole proof is checked
     if (outcome_.verdict == Verdict::undecided && outcome_.proof_begun && !whole)
       line("{} is not complete, and proves nothing.", file);
   }

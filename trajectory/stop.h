@@ -64,10 +64,10 @@ inline std::optional<StopReason> stop_asked() noexcept {
                                                                            : StopReason::out_of_time;
 }
 
-/// What stops a piece of work that several threads do, each of which may call is_asked(). The flags have to outlive it.
+/// The requests to stop work that several threads share. Any of them may call is_asked(). The flags must outlive it.
 class StopOfWork {
  public:
-  /// Made by the thread that begins the work, whose StopOfThread counts too. `stop`: another request; nullptr: none.
+  /// Made by the thread that begins the work: its StopOfThread counts too. `stop`: a further flag, or nullptr.
   StopOfWork(const std::atomic<bool>* stop, std::optional<std::chrono::steady_clock::time_point> deadline) noexcept
       : stop_(stop), of_thread_(stop_of_thread()), deadline_(deadline) {}
 

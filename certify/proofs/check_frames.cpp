@@ -36,14 +36,14 @@ void write_all(FrameSource& frames, std::unique_ptr<Sink> sink, const Before& be
 /// Gives frames to a checker that reads a pipe, in a thread of its own.
 class Giving {
  public:
-  /// `stop`: ends reading the frames; nothing: nobody asks.
+  /// `stop`: ends the reading of frames; may be nullptr.
   Giving(FrameSource& frames, TrajectoryPipe& pipe, const std::atomic<bool>* stop)
       : pipe_(pipe), stop_(stop), thread_([this, &frames] { give(frames); }) {}
   ~Giving() { join(); }
   Giving(const Giving&) = delete;
   Giving& operator=(const Giving&) = delete;
 
-  /// Becomes true if the checker has to end, because it would wait for frames without an end.
+  /// Becomes true if the checker has not opened its pipe in time. It must be ended then, or it would wait forever.
   const std::atomic<bool>* failed() const { return &failed_; }
   /// The checker may have ended without reading all frames, or any. What went wrong with them, if anything did.
   std::exception_ptr join() {

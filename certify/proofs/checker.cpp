@@ -113,7 +113,7 @@ std::optional<CheckerVerdict> CheckerProcess::finish() {
       const char* const why = end.code == SIGKILL ? ", perhaps out of memory" : "";
       throw HelperError(fmt::format("{} was ended by signal {}{}", name_of(checker_), end.code, why));
   }
-  // A motion on a pipe ends at a stop. What is refuted before its end stays refuted.
+  // After a stop a motion on a pipe ends early, so only a refutation still counts.
   constexpr int refuted = 1, machine_failed = 4;
   if (end.code != refuted && stop_.is_asked()) return std::nullopt;
   if (end.code == machine_failed) throw HelperError(fmt::format("{} {}", name_of(checker_), first_line(end.out)));

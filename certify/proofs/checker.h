@@ -41,10 +41,10 @@ class CheckerProcess {
   /// Writes the next bytes of the proof. After a stop nothing more is written; finish() then returns nothing. Throws
   /// ProofRefused when the checker stops reading with a verdict, otherwise what finish() throws.
   void write(std::string_view bytes);
-  /// Waits until it has read everything and has ended. Returns nothing after a stop, even one during write(), unless the
-  /// checker has refuted something before: its verdict is then not about the whole proof and motion. Throws HelperError
-  /// when the machine failed it (memory, a signal); std::runtime_error when it ended with an unexpected exit code, or
-  /// closed its output and stayed.
+  /// Waits until it has read everything and has ended. After a stop, even one during write(), returns nothing unless
+  /// the checker has refuted something: any other verdict may leave out the end of the motion. Throws HelperError when
+  /// the machine failed it (memory, a signal); std::runtime_error when it ended with an unexpected exit code, or closed
+  /// its output and stayed.
   std::optional<CheckerVerdict> finish();
 
  private:

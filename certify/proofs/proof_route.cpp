@@ -134,7 +134,7 @@ void ProofRoute::check_proof_of(VerifyOutcome& outcome) {
   std::optional<CheckerVerdict> verdict;
   try {
     verdict = verdict_on(outcome.claim);
-  } catch (const Stopped&) {  // while frames were read again
+  } catch (const Stopped&) {  // while the frames were read again
   }
   outcome.check_seconds = watch.seconds();
   if (!verdict) return stopped(outcome);

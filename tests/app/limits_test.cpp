@@ -319,7 +319,7 @@ TEST_F(OtherChecker, ThatSaysNothingIsEndedAtTheLimit) {
   EXPECT_LT(seconds, soon);
 }
 
-/// A proof may be whole although its check was stopped, and not whole although it was begun.
+/// A stopped check leaves a complete proof; stopping before all steps are decided leaves an incomplete one.
 TEST_F(OtherChecker, ThatSaysNothingLeavesAWholeProof) {
   const std::string proof = folder.path("proof.noli"), unfinished = "is not complete, and proves nothing";
   std::vector<std::string> words = verify("300ms");
@@ -330,8 +330,7 @@ TEST_F(OtherChecker, ThatSaysNothingLeavesAWholeProof) {
   EXPECT_EQ(whole.out.find(unfinished), std::string::npos) << whole.out;
   EXPECT_EQ(run_noli({"check", proof, words[1], words[2]}).exit_code, 0);
 
-  ASSERT_EQ(::mkfifo(folder.path("c.ply").c_str(), 0600), 0);
-  words.insert(words.begin() + 3, folder.path("c.ply"));
+  words.insert(words.begin() + 3, pipe_in(folder, "c.ply"));
   words.emplace_back("--force");
   const Process begun = run_noli(words);
   EXPECT_EQ(begun.exit_code, 2) << begun.err;

@@ -129,7 +129,7 @@ TEST_F(OnlyNew, TooManyPairsForACheckerAreDecidedAndNotChecked) {
       << process.out;
   EXPECT_TRUE(process.verdict_line().starts_with("NO CONTACT  ")) << process.verdict_line();
   fan(3);
-  // No checker reads these, so noli would give them to it.
+  // Checkers do not read joined bodies: noli would send the frames through a pipe.
   const Process joined = run_noli({"verify", "--only-new", "--body", "fan=" + folder.path("fan_*.ply")});
   EXPECT_EQ(joined.exit_code, 0) << joined.out << joined.err;
   EXPECT_NE(joined.out.find("3 frames, 2 steps"), std::string::npos) << joined.out;

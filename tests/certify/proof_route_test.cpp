@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests what is left of an answer when its check is stopped.
+// Tests verdicts whose check is stopped.
 #include "certify/proofs/proof_route.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@
 namespace noli {
 namespace {
 
-/// A triangle above another one, 0.5 away in the first frame and `end` in the second; the least distance is 0.25. Such
-/// a proof is checked when all is decided, with frames that are read again. `when_again` is called then.
+/// Verifies two triangles that are 0.5 apart in the first frame and `end` apart in the second; they have to stay 0.25
+/// apart. The checker runs after both are decided, so the frames are read again; `when_again` is called then.
 VerifyOutcome outcome_of(double end, std::atomic<bool>& stop, const std::function<void()>& when_again) {
   keep_programs_in(NOLI_PROGRAMS);
   auto given = std::make_shared<GivenFrames>();

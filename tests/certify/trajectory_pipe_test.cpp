@@ -21,7 +21,7 @@ namespace {
 
 using std::chrono::seconds;
 
-/// A checker that has opened the pipe, and reads only when it is told.
+/// Stands in for a checker: opens the pipe, and reads on request.
 class Reader {
  public:
   explicit Reader(const TrajectoryPipe& pipe) {
@@ -38,10 +38,10 @@ class Reader {
   Descriptor end_;
 };
 
-/// More than a pipe holds.
+/// More than the buffer of a pipe holds.
 const std::string much(4'000'000, 'x');
 
-/// Whether drained() returns, within ten seconds, after `ask` has been called. It does not before.
+/// Checks that drained() waits, then calls `ask`. Returns whether drained() returns within ten seconds after that.
 template <class Ask>
 bool goes_on_after(TrajectoryPipe& pipe, const Ask& ask) {
   const Reader reader(pipe);
@@ -51,7 +51,7 @@ bool goes_on_after(TrajectoryPipe& pipe, const Ask& ask) {
   EXPECT_EQ(waiting.wait_for(std::chrono::milliseconds(300)), std::future_status::timeout);
   ask();
   const bool went_on = waiting.wait_for(seconds(10)) == std::future_status::ready;
-  pipe.abandon();  // whoever waits still
+  pipe.abandon();  // lets drained() return in any case
   waiting.get();
   return went_on;
 }
